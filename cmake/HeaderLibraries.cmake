@@ -1,0 +1,13 @@
+# Header-only libraries behind one name each.
+add_library(json INTERFACE)
+find_package(nlohmann_json QUIET)
+if(nlohmann_json_FOUND)
+  target_link_libraries(json INTERFACE nlohmann_json::nlohmann_json)
+else()
+  find_path(RNMBAKE_JSON_INCLUDE nlohmann/json.hpp REQUIRED)
+  target_include_directories(json SYSTEM INTERFACE ${RNMBAKE_JSON_INCLUDE})
+endif()
+
+add_library(cli11 INTERFACE)
+find_path(RNMBAKE_CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
+target_include_directories(cli11 SYSTEM INTERFACE ${RNMBAKE_CLI11_INCLUDE})

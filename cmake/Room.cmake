@@ -1,0 +1,26 @@
+# rnm_room(NAME [LINK libs...] [PRIVATE libs...]) - the static library of src/NAME.
+# A room that generates sources does so in src/NAME/room.cmake, which may append to ROOM_SOURCES.
+
+add_library(rnm_warnings INTERFACE)
+target_compile_options(rnm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                              -Wno-sign-conversion -Wnon-virtual-dtor)
+if(RNMBAKE_WERROR)
+  target_compile_options(rnm_warnings INTERFACE -Werror)
+endif()
+
+function(rnm_room NAME)
+  cmake_parse_arguments(ROOM "" "" "LINK;PRIVATE" ${ARGN})
+  file(GLOB ROOM_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${NAME}/*.cpp)
+  if(EXISTS ${CMAKE_SOURCE_DIR}/src/${NAME}/room.cmake)
+    include(${CMAKE_SOURCE_DIR}/src/${NAME}/room.cmake)
+  endif()
+  if(ROOM_SOURCES)
+    add_library(${NAME} STATIC ${ROOM_SOURCES})
+    target_include_directories(${NAME} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+    target_link_libraries(${NAME} PUBLIC ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE} rnm_warnings)
+  else()
+    add_library(${NAME} INTERFACE)
+    target_include_directories(${NAME} INTERFACE ${CMAKE_SOURCE_DIR}/src)
+    target_link_libraries(${NAME} INTERFACE ${ROOM_LINK})
+  endif()
+endfunction()
