@@ -1,0 +1,94 @@
+"""Cycles as an irradiance meter: every default that biases a bake is turned off."""
+import bpy
+
+from core.task import ENVIRONMENT, Refusal
+
+
+def _set(owner, name, value):
+    """Set a property that not every Blender has; say whether it exists."""
+    if not hasattr(owner, name):
+        return False
+    setattr(owner, name, value)
+    return True
+
+
+def apply_settings(scene, settings):
+    """`settings`: samples, bounces, seed, clamp, device, as in the [bake] table of a project file."""
+    scene.render.engine = "CYCLES"
+    cycles = scene.cycles
+    cycles.samples = settings["samples"]
+    cycles.seed = settings["seed"]
+    cycles.sample_clamp_direct = settings["clamp"]
+    cycles.sample_clamp_indirect = settings["clamp"]
+    _set_bounces(cycles, settings["bounces"])
+    _remove_bias(scene)
+    use_device(scene, settings["device"])
+
+
+def _set_bounces(cycles, bounces):
+    cycles.max_bounces = bounces
+    for lobe in ("diffuse", "glossy", "transmission"):
+        setattr(cycles, lobe + "_bounces", bounces)
+
+
+def _remove_bias(scene):
+    cycles = scene.cycles
+    cycles.blur_glossy = 0
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False  # 3.4 without OIDN bakes black with it on, and says FINISHED
+    cycles.light_sampling_threshold = 0
+    cycles.film_exposure = 1  # multiplies bakes
+    for switch in ("use_fast_gi", "use_guiding"):
+        _set(cycles, switch, False)
+    scene.render.use_simplify = False
+    scene.render.use_persistent_data = False
+    scene.render.use_border = False
+
+
+def use_device(scene, device):
+    """CPU, or one of Cycles' GPU back ends with every device of that kind."""
+    if device == "CPU":
+        scene.cycles.device = "CPU"
+        return
+    preferences = bpy.context.preferences.addons["cycles"].preferences
+    try:
+        preferences.compute_device_type = device
+    except TypeError as error:
+        raise Refusal(f"this Blender was built without {device}; use --device CPU", ENVIRONMENT) from error
+    preferences.get_devices()
+    usable = [d for d in preferences.devices if d.type == device]
+    if not usable:
+        raise Refusal(f"no {device} device was found; use --device CPU, or see rnmbake doctor", ENVIRONMENT)
+    for entry in preferences.devices:
+        entry.use = entry.type == device
+    scene.cycles.device = "GPU"
+
+
+def bake_diffuse(scene, target, clear=True):
+    """Bake direct + indirect diffuse light of the active object into its active image. Units: E/pi."""
+    view_layer = bpy.context.view_layer
+    for other in view_layer.objects:
+        other.select_set(False)
+    target.select_set(True)
+    view_layer.objects.active = target
+    scene.render.bake.use_selected_to_active = False
+    outcome = bpy.ops.object.bake(
+        type="DIFFUSE", pass_filter={"DIRECT", "INDIRECT"}, margin=0, use_clear=clear,
+        target="IMAGE_TEXTURES", save_mode="INTERNAL")
+    if outcome != {"FINISHED"}:
+        raise Refusal(f"Blender cancelled the bake of '{target.name}'", object_name=target.name)
+
+
+def new_float_image(name, width, height):
+    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    return image
+
+
+def save_pixels(image, path):
+    """RGBA, 32-bit float, bottom row first, no header."""
+    from array import array
+    pixels = array("f", bytes(16 * image.size[0] * image.size[1]))
+    image.pixels.foreach_get(pixels)
+    with open(path, "wb") as stream:
+        pixels.tofile(stream)

@@ -1,0 +1,91 @@
+"""Receivers: invisible white Lambertian copies whose corner normals are basis directions.
+
+The driver computed every position, normal and UV (src/bake/receiver.cpp); here they only become a mesh.
+Each corner has a vertex of its own, so that no normal is shared.
+"""
+from array import array
+
+import bpy
+
+
+def read_floats(stream, count):
+    values = array("f")
+    values.fromfile(stream, count)
+    return values
+
+
+def build_mesh(name, stream, corners):
+    """Read positions, normals, UVs (3 + 3 + 2 floats for each corner) from `stream` and build the mesh."""
+    positions = read_floats(stream, 3 * corners)
+    normals = read_floats(stream, 3 * corners)
+    uvs = read_floats(stream, 2 * corners)
+    triangles = corners // 3
+
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(corners)
+    mesh.loops.add(corners)
+    mesh.polygons.add(triangles)
+    mesh.vertices.foreach_set("co", positions)
+    mesh.loops.foreach_set("vertex_index", array("i", range(corners)))
+    mesh.polygons.foreach_set("loop_start", array("i", range(0, corners, 3)))
+    if bpy.app.version < (4, 0):
+        mesh.polygons.foreach_set("loop_total", array("i", [3]) * triangles)
+    mesh.polygons.foreach_set("use_smooth", array("b", [1]) * triangles)
+    mesh.uv_layers.new(name="Lightmap")
+    mesh.uv_layers[0].data.foreach_set("uv", uvs)
+    mesh.update()
+    _set_normals(mesh, normals)
+    return mesh
+
+
+def _set_normals(mesh, normals):
+    if hasattr(mesh, "use_auto_smooth"):  # <= 4.0: custom normals count only with it
+        mesh.use_auto_smooth = True
+    xyz = iter(normals)
+    mesh.normals_split_custom_set_from_vertices(list(zip(xyz, xyz, xyz)))
+
+
+def make_material(image):
+    """Pure white Diffuse BSDF of roughness 0; `image` is what the bake writes to."""
+    material = bpy.data.materials.new("rnmbake receiver")
+    if not material.use_nodes:
+        material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = (1, 1, 1, 1)
+    diffuse.inputs["Roughness"].default_value = 0
+    output = nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    nodes.active = texture
+    return material
+
+
+def make_receiver(scene, mesh, material, like=""):
+    """Link an object that the camera (and so the bake) sees and no other ray does.
+
+    `like`: the name of the object whose light linking it takes over.
+    """
+    receiver = bpy.data.objects.new(mesh.name, mesh)
+    scene.collection.objects.link(receiver)
+    mesh.materials.append(material)
+    receiver.visible_camera = True  # all off: silently not exported
+    for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
+        setattr(receiver, "visible_" + ray, False)
+    _no_terminator_offset(receiver)
+    original = bpy.data.objects.get(like) if like else None
+    if original is not None and hasattr(original, "light_linking"):
+        for which in ("receiver_collection", "blocker_collection"):
+            setattr(receiver.light_linking, which, getattr(original.light_linking, which))
+    return receiver
+
+
+def _no_terminator_offset(ob):
+    """The properties moved from ob.cycles to ob in 5.0; the old ones then exist and do nothing."""
+    for name in ("shadow_terminator_geometry_offset", "shadow_terminator_offset",
+                 "shadow_terminator_shading_offset"):
+        for owner in (ob, ob.cycles):
+            if hasattr(owner, name):
+                setattr(owner, name, 0)

@@ -1,0 +1,21 @@
+// bake/clip.h - cuts triangles by linear functions, carrying what their corners carry.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/math.h"
+
+namespace rnmbake {
+
+/// A corner of a cut triangle as weights of the three original corners.
+using Weights = Vec3;
+using WeightPolygon = std::vector<Weights>;
+
+[[nodiscard]] inline WeightPolygon whole_triangle() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+
+/// The part of `polygon` where the linear function with these corner values is >= 0.
+[[nodiscard]] WeightPolygon clip(const WeightPolygon& polygon, const std::array<float, 3>& corner_values);
+
+}  // namespace rnmbake
