@@ -1,0 +1,81 @@
+"""Checks the law of the rooms (src/README.md): includes go strictly down the floors.
+
+Each folder of src/ is a room on a floor. A file may include its own room and rooms on lower floors,
+never a sibling; a library named in OWNED may be included by its rooms alone. In blender_scripts/,
+core/ must run without Blender. Prints every offence as file:line: and exits 1 if there is one.
+"""
+
+import pathlib
+import re
+import sys
+
+FLOORS = {
+    "base": 0,
+    "basis": 1, "image": 1, "scene": 1, "config": 1, "process": 1,
+    "blender": 2, "bake": 2, "lightmap": 2, "trace": 2, "ssbump": 2, "jobs": 2, "report": 2,
+    "cli": 3,
+}
+OWNED = {
+    "OpenImageIO/": {"image"},
+    "OpenEXR/": {"image"},
+    "toml++/": {"config"},
+    "CLI/": {"cli"},
+    "embree": {"trace"},
+    "tbb/": {"trace", "ssbump"},
+    "xxhash.h": {"base"},
+}
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+IMPORT_BPY = re.compile(r"\s*(import|from)\s+(bpy|mathutils|bmesh)\b")
+
+
+def lines(path):
+    return enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+
+
+def include_offence(room, quote, target):
+    """Why `room` may not include `target`, or None."""
+    if quote == "<":
+        for prefix, rooms in OWNED.items():
+            if target.startswith(prefix) and room not in rooms:
+                return f"<{target}> belongs to {', '.join(sorted(rooms))} alone"
+        return None
+    other = target.split("/")[0]
+    if "/" not in target:
+        return f'name the room: "{room}/{target}"'
+    if other in FLOORS and other != room and FLOORS[other] >= FLOORS[room]:
+        return f"{room} (floor {FLOORS[room]}) may not include {other} (floor {FLOORS[other]})"
+    return None
+
+
+def check_cpp(source):
+    for folder in sorted(path for path in source.iterdir() if path.is_dir()):
+        if folder.name not in FLOORS:
+            yield f"{folder}: a room without a floor: add it to tools/dev/floors.py and src/README.md"
+            continue
+        for path in sorted(folder.rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            for number, line in lines(path):
+                match = INCLUDE.match(line)
+                offence = match and include_offence(folder.name, *match.groups())
+                if offence:
+                    yield f"{path}:{number}: {offence}"
+
+
+def check_python(core):
+    for path in sorted(core.rglob("*.py")):
+        for number, line in lines(path):
+            if IMPORT_BPY.match(line):
+                yield f"{path}:{number}: core/ must run without Blender; this belongs in scene_ops/"
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parents[2]
+    offences = [*check_cpp(root / "src"), *check_python(root / "blender_scripts" / "core")]
+    for offence in offences:
+        print(offence.replace(f"{root}/", ""), file=sys.stderr)
+    return 1 if offences else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,116 @@
+# matrix.sh - the Blender tests on other Debian releases, each in a root of its own under .roots/.
+# Sourced by ./dev. What cannot be fetched is reported as SKIPPED with its reason, never as passed.
+
+enter() {
+  tools/dev/enter.sh "$PWD/.roots/$1" "${@:2}"
+}
+
+# Why no root can be made here; nothing where one can.
+obstacle() {
+  if [[ $EUID != 0 ]]; then
+    echo "making and entering a root needs root: sudo ./dev matrix"
+  elif ! unshare --mount true 2>/dev/null; then
+    echo "this machine allows no mount namespaces"
+  elif ! (require debootstrap) >&2; then
+    echo "debootstrap is missing and could not be installed"
+  fi
+}
+
+# Makes .roots/SUITE once. It grows as SUITE.part, so that one which was interrupted is never taken for a
+# whole one; what debootstrap had finished is kept.
+make_root() {
+  local suite=$1 root=.roots/$1 part=.roots/$1.part
+  if [[ -e $root/.complete ]]; then return; fi
+  echo "dev: making a Debian $suite in $root (once)" >&2
+  if [[ ! -e $part/.base ]]; then
+    rm -rf --one-file-system "$part"
+    unshare --mount --propagation private debootstrap --variant=minbase "$suite" "$part" \
+      "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" || return
+    touch "$part/.base"
+  fi
+  printf '#!/bin/sh\nexit 101\n' >"$part/usr/sbin/policy-rc.d" # start no services
+  chmod +x "$part/usr/sbin/policy-rc.d"
+  install_in "$suite.part" blender python3-numpy python3-requests python3-cattr || return
+  touch "$part/.complete"
+  rm -rf --one-file-system "$root"
+  mv "$part" "$root"
+}
+
+install_in() {
+  cp --remove-destination /etc/resolv.conf ".roots/$1/etc/resolv.conf"
+  enter "$1" dpkg --configure -a &&
+    enter "$1" apt-get update &&
+    enter "$1" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "${@:2}"
+}
+
+# A program that tests can start in place of `blender`.
+make_wrapper() {
+  local wrapper=.roots/bin/blender-$1
+  mkdir -p .roots/bin
+  printf '#!/bin/sh\nexec "%s" "%s" blender "$@"\n' "$PWD/tools/dev/enter.sh" "$PWD/.roots/$1" >"$wrapper.new"
+  chmod +x "$wrapper.new"
+  mv "$wrapper.new" "$wrapper"
+}
+
+# Compiles rnmbake with the compiler and libraries of SUITE and runs the tests that need no Blender.
+build_in() {
+  local suite=$1 folder=$PWD/.roots/build-$1
+  if [[ ! -e .roots/$suite/.build-packages || tools/dev/setup.sh -nt .roots/$suite/.build-packages ]]; then
+    install_in "$suite" "${test_packages[@]}" >"$(log "$suite-packages")" 2>&1 || return
+    touch ".roots/$suite/.build-packages"
+  fi
+  enter "$suite" cmake -G Ninja -S "$PWD" -B "$folder" -DCMAKE_BUILD_TYPE=Release -DRNMBAKE_WERROR=ON &&
+    enter "$suite" cmake --build "$folder" --parallel "$(nproc)" &&
+    enter "$suite" ctest --test-dir "$folder" -L unit --output-on-failure --no-tests=error --parallel "$(nproc)"
+}
+
+# One suite from nothing to its verdict; prints the summary line last.
+try_suite() {
+  local suite=$1 version reason
+  reason=$(obstacle)
+  if [[ -z $reason ]] && ! make_root "$suite" >"$(log "$suite-root")" 2>&1; then
+    reason="the root could not be made, see $(log "$suite-root"): $(tail -n 1 "$(log "$suite-root")")"
+  fi
+  if [[ -n $reason ]]; then
+    echo "SKIPPED $suite: $reason"
+    return
+  fi
+  make_wrapper "$suite"
+  if ! version=$(".roots/bin/blender-$suite" --version 2>&1); then
+    echo "SKIPPED $suite: its Blender does not start: $(tail -n 1 <<<"$version")"
+    return
+  fi
+  version=${version%%$'\n'*}
+
+  if [[ $with_build == yes ]] && ! build_in "$suite" >&2; then
+    echo "FAILED  $suite: rnmbake does not compile there or fails its tests"
+    return 1
+  fi
+  if ! RNMBAKE_BLENDER=$PWD/.roots/bin/blender-$suite TMPDIR=/tmp \
+    ctest --test-dir build/release -L blender --output-on-failure --no-tests=error >&2; then
+    echo "FAILED  $suite: $version"
+    return 1
+  fi
+  echo "PASSED  $suite: $version"
+}
+
+matrix() {
+  local with_build=no suites=() summary=() status=0 suite argument
+  for argument in "$@"; do
+    case $argument in
+      --build) with_build=yes ;;
+      trixie | sid) suites+=("$argument") ;;
+      *) die "./dev matrix knows trixie, sid and --build, not $argument" ;;
+    esac
+  done
+  if [[ ${#suites[@]} == 0 ]]; then suites=(trixie sid); fi
+
+  require "${test_packages[@]}"
+  build release
+  scenes
+  for suite in "${suites[@]}"; do
+    summary+=("$(try_suite "$suite")") || status=1
+  done
+  printf '%s\n' "" "${summary[@]}"
+  return $status
+}
