@@ -1,0 +1,154 @@
+"""What Blender would render, as plain data: docs/survey-format.md.
+
+Render visibility, render levels of modifiers and the instances of a final render exist only in the
+dependency graph that Blender builds for a render engine. So the survey is a render engine: one tiny render
+in which every object is read and not a pixel drawn.
+"""
+import json
+import sys
+
+import bpy
+
+from scene_ops.describe import describe_light, describe_material, describe_world, light_group
+from scene_ops.survey_mesh import MeshFile
+
+FORMAT = 1
+SURFACES = {"MESH", "CURVE", "FONT", "SURFACE", "META"}
+
+
+class SurveyEngine(bpy.types.RenderEngine):
+    bl_idname = "RNMBAKE_SURVEY"
+    bl_label = "rnmbake survey"
+    bl_use_preview = False
+    visit = None
+    visited = False
+    error = None
+
+    def render(self, depsgraph):
+        cls = SurveyEngine
+        if cls.visited:
+            return
+        cls.visited = True
+        try:
+            cls.visit(depsgraph)
+        except BaseException as error:  # Blender prints what is raised in here and goes on
+            cls.error = error
+
+
+def with_render_depsgraph(visit):
+    """Call visit(depsgraph) with the graph of a final render of the current view layer."""
+    SurveyEngine.visit, SurveyEngine.visited, SurveyEngine.error = staticmethod(visit), False, None
+    bpy.utils.register_class(SurveyEngine)
+    prepare_render(bpy.context.scene)
+    bpy.ops.render.render()
+    if SurveyEngine.error:
+        raise SurveyEngine.error
+    if not SurveyEngine.visited:
+        raise RuntimeError("Blender rendered without calling the survey engine")
+
+
+def prepare_render(scene):
+    """The smallest render that reaches the engine, of the view layer that a bake would use."""
+    render = scene.render
+    render.engine = SurveyEngine.bl_idname
+    render.resolution_x = render.resolution_y = 8
+    render.resolution_percentage = 100
+    for name in ("use_compositing", "use_sequencer", "use_border", "use_freestyle", "use_multiview",
+                 "use_motion_blur", "use_persistent_data", "use_simplify", "use_single_layer"):
+        if hasattr(render, name):
+            setattr(render, name, False)
+    for layer in scene.view_layers:
+        layer.use = layer.name == bpy.context.view_layer.name
+    if scene.camera is None:
+        camera = bpy.data.objects.new("rnmbake survey", bpy.data.cameras.new("rnmbake survey"))
+        scene.collection.objects.link(camera)
+        scene.camera = camera
+
+
+class Surveyor:
+    """Walks a render depsgraph once and keeps strings and numbers only: nothing of Blender's outlives a step."""
+
+    def __init__(self, task):
+        self.task = task
+        self.meshes = MeshFile(task.path("survey.bin"))
+        self.objects, self.lights, self.warnings = [], [], []
+        self.material_names = set()
+        self._keys = set()
+
+    def visit(self, depsgraph):
+        override = depsgraph.view_layer_eval.material_override
+        for instance in depsgraph.object_instances:
+            if not instance.show_self:
+                continue
+            ob = instance.object
+            if ob.type == "LIGHT":
+                self.lights.append(describe_light(ob, instance.matrix_world))
+            elif ob.type in SURFACES:
+                self.add_surface(instance, ob, override)
+        self.meshes.close()
+
+    def add_surface(self, instance, ob, override):
+        mesh = self.meshes.add(ob)
+        if mesh is None:
+            return
+        original = ob.original
+        instancer = instance.parent.original.name_full if instance.is_instance and instance.parent else ""
+        slots = [material_name(override or slot.material) for slot in ob.material_slots]
+        self.material_names.update(name for name in slots if name)
+        self.objects.append({
+            "key": self.new_key(original, instancer),
+            "name": original.name,
+            "instancer": instancer,
+            "type": original.type,
+            "mesh": mesh,
+            "matrix": [value for row in instance.matrix_world for value in row],
+            "slots": slots,
+            "light_group": light_group(original),
+            "visible_to_camera": bool(ob.visible_camera),
+        })
+        self.task.progress("evaluate", original.name, len(self.objects))
+
+    def new_key(self, original, instancer):
+        """The object's name; instancer/name#n for instances, and wherever a library repeats a name."""
+        key = f"{instancer}/{original.name_full}" if instancer else original.name
+        if instancer or key in self._keys:
+            number = 0
+            while f"{key}#{number}" in self._keys:
+                number += 1
+            key = f"{key}#{number}"
+        self._keys.add(key)
+        return key
+
+
+def material_name(material):
+    """Unique among the file's materials: the plain name, with the library's file for a linked one."""
+    return material.original.name_full if material else ""
+
+
+def survey_scene(task):
+    surveyor = Surveyor(task)
+    scene = bpy.context.scene
+    with_render_depsgraph(surveyor.visit)
+    wanted = [material for material in bpy.data.materials if material.name_full in surveyor.material_names]
+    return {
+        "format": FORMAT,
+        "byte_order": sys.byteorder,
+        "scene_file": task.request["scene"],
+        "scene_name": scene.name,
+        "view_layer": bpy.context.view_layer.name,
+        "blender_version": bpy.app.version_string,
+        "data": "survey.bin",
+        "data_bytes": surveyor.meshes.bytes_written,
+        "meshes": surveyor.meshes.entries,
+        "objects": surveyor.objects,
+        "materials": {material.name_full: describe_material(material) for material in wanted},
+        "lights": surveyor.lights,
+        "world": describe_world(scene.world),
+        "warnings": surveyor.warnings,
+    }
+
+
+def write_survey(task, survey):
+    with open(task.path("survey.json"), "w", encoding="utf-8") as stream:
+        json.dump(survey, stream, ensure_ascii=True)
+    return "survey.json"

@@ -1,0 +1,83 @@
+"""Evaluated meshes as raw arrays in one file; all loops over elements are Blender's own (foreach_get)."""
+from array import array
+
+import bpy
+
+WIDTH = 4  # bytes of a number: float32 or int32
+
+
+class MeshFile:
+    """survey.bin and the list of what lies where in it."""
+
+    def __init__(self, path):
+        self._stream = open(path, "wb")
+        self._index = {}
+        self.entries = []
+        self.bytes_written = 0
+
+    def close(self):
+        self._stream.close()
+
+    def add(self, ob):
+        """The entry that holds the faces of an evaluated object; None where it has none to speak of.
+
+        Objects that share evaluated data share the entry; a modifier gives an object data of its own.
+        """
+        key = (ob.data.as_pointer(), None if isinstance(ob.data, bpy.types.Mesh) else ob.original.as_pointer())
+        if key not in self._index:
+            self._index[key] = self._add_evaluated(ob)
+        return self._index[key]
+
+    def _add_evaluated(self, ob):
+        if isinstance(ob.data, bpy.types.Mesh):  # what Cycles itself reads
+            return self._append(ob.data)
+        mesh = ob.to_mesh()
+        if mesh is None:
+            return None
+        try:
+            # A curve that only guides others, or a metaball that its family's first one draws.
+            return self._append(mesh, ob.data.name) if len(mesh.polygons) else None
+        finally:
+            ob.to_mesh_clear()
+
+    def _append(self, mesh, name=None):
+        mesh.calc_loop_triangles()
+        loops, polygons, triangles = len(mesh.loops), len(mesh.polygons), len(mesh.loop_triangles)
+        uv_layers = list(mesh.uv_layers)
+        self.entries.append({
+            "name": name or mesh.name,
+            "vertices": len(mesh.vertices), "loops": loops, "polygons": polygons, "triangles": triangles,
+            "positions": self._write(mesh.vertices, "co", "f", 3),
+            "loop_vertex": self._write(mesh.loops, "vertex_index", "i"),
+            "loop_normal": self._write_normals(mesh),
+            "triangle_loops": self._write(mesh.loop_triangles, "loops", "i", 3),
+            "triangle_polygon": self._write(mesh.loop_triangles, "polygon_index", "i"),
+            "polygon_start": self._write(mesh.polygons, "loop_start", "i"),
+            "polygon_size": self._write(mesh.polygons, "loop_total", "i"),
+            "polygon_slot": self._write(mesh.polygons, "material_index", "i"),
+            "uv_layers": [{"name": layer.name, "offset": self._write_uv(layer)} for layer in uv_layers],
+            "active_uv": mesh.uv_layers.active_index if uv_layers else -1,
+            "render_uv": next((i for i, layer in enumerate(uv_layers) if layer.active_render), -1),
+        })
+        return len(self.entries) - 1
+
+    def _write(self, collection, attribute, kind, components=1):
+        """Append one attribute of all elements; returns its offset in bytes."""
+        values = array(kind, bytes(len(collection) * components * WIDTH))
+        if values:
+            collection.foreach_get(attribute, values)
+        offset = self.bytes_written
+        values.tofile(self._stream)
+        self.bytes_written += len(values) * WIDTH
+        return offset
+
+    def _write_normals(self, mesh):
+        if hasattr(mesh, "corner_normals"):  # >= 4.1
+            return self._write(mesh.corner_normals, "vector", "f", 3)
+        mesh.calc_normals_split()
+        return self._write(mesh.loops, "normal", "f", 3)
+
+    def _write_uv(self, layer):
+        if hasattr(layer, "uv"):  # >= 3.5
+            return self._write(layer.uv, "vector", "f", 2)
+        return self._write(layer.data, "uv", "f", 2)

@@ -1,0 +1,25 @@
+"""Blender runs this to tell the driver what it would render: survey.json and survey.bin."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from core.task import run  # noqa: E402
+from scene_ops.load import imported_blend, open_scene, refuse_blocked_scripts  # noqa: E402
+from scene_ops.survey import survey_scene, write_survey  # noqa: E402
+
+
+def main(task):
+    warnings = open_scene(task)
+    blend = imported_blend(task)  # before the survey, which changes the render settings
+    task.progress("evaluate")
+    survey = survey_scene(task)
+    refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
+    survey["warnings"] = warnings + survey["warnings"]
+    result = {"survey": write_survey(task, survey)}
+    if blend:
+        result["blend"] = blend
+    return result
+
+
+run(main)
