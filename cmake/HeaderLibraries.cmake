@@ -11,3 +11,7 @@ endif()
 add_library(cli11 INTERFACE)
 find_path(RNMBAKE_CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 target_include_directories(cli11 SYSTEM INTERFACE ${RNMBAKE_CLI11_INCLUDE})
+
+add_library(xxhash INTERFACE) # compiled in through XXH_INLINE_ALL
+find_path(RNMBAKE_XXHASH_INCLUDE xxhash.h REQUIRED)
+target_include_directories(xxhash SYSTEM INTERFACE ${RNMBAKE_XXHASH_INCLUDE})

@@ -1,0 +1,172 @@
+#include "base/files.h"
+
+#include "base/error.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace rnmbake {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string reason(int error) {
+  if (error == ENOSPC) return "the disk is full (ENOSPC); free some space or choose another folder";
+  if (error == EDQUOT) return "the disk quota is used up; free some space or choose another folder";
+  return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): glibc's is thread-safe for known errors
+}
+
+[[noreturn]] void fail_writing(const fs::path& path, int error) {
+  fail(ExitCode::io, "cannot write {}: {}", path.string(), reason(error));
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::string random_word() {
+  static thread_local std::mt19937_64 generator{std::random_device{}()};
+  return fmt::format("{:012x}", generator() >> 16);
+}
+
+/// Opens a new file beside `target` with the permissions that the user's umask gives (mkstemp's are 0600).
+int create_beside(const fs::path& target, fs::path& temporary) {
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    temporary = folder_of(target) / (".tmp-" + random_word() + target.extension().string());
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return descriptor;
+    if (errno != EEXIST) break;
+  }
+  fail_writing(target, errno);
+}
+
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);  // some file systems cannot; the data itself is already safe
+  ::close(descriptor);
+}
+
+bool disk_is_full(const fs::path& folder) {
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  return !error && space.available < 4096;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
+  if (fs::is_directory(target_)) fail(ExitCode::io, "cannot write {}: it is a folder", target_.string());
+  descriptor_ = create_beside(target_, temporary_);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_writing(target_, errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void AtomicFile::commit() {
+  // A library may have put another file in our file's place, so sync what the name stands for now.
+  ::close(descriptor_);
+  descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0 || ::fsync(descriptor_) != 0) fail_writing(target_, errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_writing(target_, errno);
+  committed_ = true;
+  sync_folder(folder_of(target_));
+}
+
+void write_atomically(const fs::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& writer) {
+  AtomicFile file(path);
+  try {
+    writer(file.temporary());
+  } catch (const std::exception&) {
+    // Libraries seldom say why; with no room left the reason is plain.
+    if (disk_is_full(folder_of(path))) fail_writing(path, ENOSPC);
+    throw;
+  }
+  file.commit();
+}
+
+std::string read_text(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail(ExitCode::io, "cannot read {}: it is a folder", path.string());
+  errno = 0;
+  const std::ifstream stream(path, std::ios::binary);
+  if (!stream) fail(ExitCode::io, "cannot read {}: {}", path.string(), reason(errno));
+  std::ostringstream content;
+  content << stream.rdbuf();
+  if (stream.bad()) fail(ExitCode::io, "cannot read {}: {}", path.string(), reason(errno));
+  return content.str();
+}
+
+std::string read_tail(const fs::path& path, std::size_t bytes) {
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) return "";
+  const auto size = static_cast<std::size_t>(stream.tellg());
+  const std::size_t start = size > bytes ? size - bytes : 0;
+  stream.seekg(static_cast<std::streamoff>(start));
+  std::string text(size - start, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (start == 0) return text;
+  const std::size_t line_end = text.find('\n');
+  return line_end == std::string::npos ? text : text.substr(line_end + 1);
+}
+
+void make_folders(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder, error)) return;
+  fail(ExitCode::io, "cannot create the folder {}: {}", folder.string(),
+       error ? reason(error.value()) : "a file has that name");
+}
+
+fs::path temp_root() {
+  const char* variable = std::getenv("TMPDIR");
+  return variable != nullptr && *variable != '\0' ? fs::path(variable) : fs::path("/tmp");
+}
+
+TempFolder::TempFolder(const fs::path& parent) {
+  const fs::path root = fs::absolute(parent.empty() ? temp_root() : parent);
+  std::string name = (root / "rnmbake-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    fail(ExitCode::io, "cannot create a temporary folder in {}: {}; point TMPDIR to a writable folder",
+         root.string(), reason(errno));
+  }
+  path_ = name;
+}
+
+TempFolder::TempFolder(TempFolder&& other) noexcept : path_(std::move(other.path_)), kept_(other.kept_) {
+  other.path_.clear();
+}
+
+TempFolder::~TempFolder() {
+  if (kept_ || path_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace rnmbake

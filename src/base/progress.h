@@ -1,0 +1,56 @@
+// base/progress.h - tells a person how far the work is: a bar on a terminal, else a line now and then.
+#pragma once
+
+#include "base/clock.h"
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace rnmbake {
+
+struct ProgressOptions {
+  enum class Style { off, lines, bar };
+  Style style = Style::lines;
+  double line_seconds = 10;  // between two lines
+  double bar_seconds = 0.1;  // between two drawings of the bar
+  int columns = 79;
+  const Clock* clock = &steady_clock();
+  /// Where the text goes; none: the log's information level, and for the bar log::draw_bar.
+  std::function<void(std::string_view)> sink;
+};
+
+/// What fits this process: off when quiet, a bar if stderr is a terminal and the log is text, else lines.
+ProgressOptions progress_for(bool quiet, bool jsonl);
+
+/// Seconds as a person says them: "8 s", "3 min 20 s", "2 h 05 min".
+std::string spoken_duration(double seconds);
+
+/// One piece of work from 0 to 1. May be updated from several threads.
+class Progress {
+ public:
+  Progress(std::string title, ProgressOptions options);
+  ~Progress();  // takes the bar away
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `share` of the work is done, `item` is in work. The share never goes back.
+  void update(double share, std::string_view item);
+
+  /// The remaining seconds by rule of three; negative while nothing can be said.
+  [[nodiscard]] double eta_seconds() const;
+
+ private:
+  void show_bar(std::string_view item);
+  void show_line(std::string_view item);
+  [[nodiscard]] std::string eta_text() const;
+
+  std::string title_;
+  ProgressOptions options_;
+  double started_, last_shown_;
+  double share_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace rnmbake

@@ -1,0 +1,59 @@
+// process/run.h - runs a program in a process group of its own, with limits, and leaves none of it behind.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rnmbake {
+
+struct ProcessOptions {
+  std::vector<std::string> argv;  // argv[0] is looked up in PATH if it holds no slash
+  /// Applied in order to our own environment; no value: removed.
+  std::vector<std::pair<std::string, std::optional<std::string>>> environment;
+  std::filesystem::path folder;  // to run in; empty: ours
+  std::filesystem::path output;  // file for stdout and stderr; empty: captured into ProcessResult::output
+  double total_seconds = 0;      // 0: no limit
+  double silence_seconds = 0;    // see process/silence.h; 0: no limit
+  double grace_seconds = 5;      // between SIGTERM and SIGKILL
+  double tick_seconds = 0.25;    // between two looks at the process
+};
+
+/// What a look at the running process shows.
+struct ProcessStatus {
+  double wall_seconds = 0, cpu_seconds = 0;
+  std::size_t resident_bytes = 0, output_bytes = 0;
+};
+
+/// Called at every tick and once after the end. True: the process showed a sign of life that its CPU time
+/// and output do not show. May throw: the process is ended, then the exception goes on.
+using ProcessTick = std::function<bool(const ProcessStatus&)>;
+
+struct ProcessResult {
+  enum class EndedBy { itself, total_limit, silence, stop_request };
+  EndedBy ended_by = EndedBy::itself;
+  int exit_code = 0;  // meaningless if `signal` is set
+  int signal = 0;     // that ended the process; 0: it returned
+  double wall_seconds = 0, cpu_seconds = 0;
+  std::size_t peak_bytes = 0;  // of the whole tree, as far as the ticks saw it
+  std::string output;          // if captured
+
+  [[nodiscard]] bool succeeded() const {
+    return ended_by == EndedBy::itself && signal == 0 && exit_code == 0;
+  }
+};
+
+/// Runs to the end. stdin is empty. If the program or a limit ends it, or a stop is requested
+/// (process/stop.h), the whole tree is gone when this returns; should the calling thread die, the kernel ends
+/// the child. Error(environment) if the program cannot be started, Error(io) if the output file cannot be
+/// made.
+ProcessResult run_process(const ProcessOptions& options, const ProcessTick& tick = {});
+
+/// "SIGSEGV", ...; "signal N" for those without a name.
+std::string signal_name(int signal);
+
+}  // namespace rnmbake

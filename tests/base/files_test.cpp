@@ -1,0 +1,151 @@
+#include "base/files.h"
+
+#include "base/error.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return "";
+}
+
+TEST(WriteAtomically, ReplacesTheFileAndLeavesNothingElse) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "a.txt";
+  write_atomically(path, "one");
+  write_atomically(path, std::string_view("two\0three", 9));
+  EXPECT_EQ(read_text(path), std::string("two\0three", 9));
+  EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, FollowsTheUmask) {
+  const TempFolder folder;
+  const mode_t before = ::umask(0027);
+  write_atomically(folder.path() / "a", "x");
+  ::umask(before);
+  struct stat status {};
+  ASSERT_EQ(::stat((folder.path() / "a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777u, 0640u);
+}
+
+TEST(WriteAtomically, KeepsTheOldFileWhenTheWriterThrows) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "a.exr";
+  write_atomically(path, "old");
+  EXPECT_THROW(write_atomically(path,
+                                [](const fs::path& temporary) {
+                                  EXPECT_EQ(temporary.extension(), ".exr");
+                                  std::ofstream(temporary) << "half";
+                                  throw std::runtime_error("broken");
+                                }),
+               std::runtime_error);
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, AWriterMayReplaceTheTemporaryFile) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "a";
+  write_atomically(path, [](const fs::path& temporary) {
+    fs::remove(temporary);
+    std::ofstream(temporary) << "new";
+  });
+  EXPECT_EQ(read_text(path), "new");
+}
+
+TEST(WriteAtomically, NamesThePathAndTheReason) {
+  const TempFolder folder;
+  const std::string missing = message_of([&] { write_atomically(folder.path() / "no" / "a", "x"); });
+  EXPECT_NE(missing.find((folder.path() / "no" / "a").string()), std::string::npos) << missing;
+  EXPECT_NE(missing.find("No such file"), std::string::npos) << missing;
+  EXPECT_NE(message_of([&] { write_atomically(folder.path(), "x"); }).find("folder"), std::string::npos);
+}
+
+TEST(WriteAtomically, SaysThatTheDiskIsFull) {
+  const TempFolder folder;
+  const std::string mount = "mount -t tmpfs -o size=64k none " + folder.path().string() + " 2>/dev/null";
+  if (std::system(mount.c_str()) != 0) GTEST_SKIP() << "SKIPPED: a small tmpfs needs root";
+  const fs::path path = folder.path() / "a";
+  const std::string said = message_of([&] { write_atomically(path, std::string(1 << 20, 'x')); });
+  EXPECT_NE(said.find("disk is full"), std::string::npos) << said;
+  EXPECT_EQ(files_in(folder.path()), 0u);
+  const std::string by_writer = message_of([&] {
+    write_atomically(path, [](const fs::path& temporary) {
+      std::ofstream stream(temporary);
+      stream << std::string(1 << 20, 'x') << std::flush;
+      if (!stream) throw std::runtime_error("write error");
+    });
+  });
+  EXPECT_NE(by_writer.find("disk is full"), std::string::npos) << by_writer;
+  EXPECT_EQ(std::system(("umount " + folder.path().string()).c_str()), 0);
+}
+
+TEST(ReadText, NamesWhatIsMissing) {
+  EXPECT_NE(message_of([] { (void)read_text("/nowhere/x"); }).find("/nowhere/x"), std::string::npos);
+  EXPECT_NE(message_of([] { (void)read_text("/tmp"); }).find("folder"), std::string::npos);
+}
+
+TEST(ReadTail, BeginsWithAWholeLine) {
+  const TempFolder folder;
+  write_atomically(folder.path() / "a", "first\nsecond\nthird\n");
+  EXPECT_EQ(read_tail(folder.path() / "a", 10), "third\n");
+  EXPECT_EQ(read_tail(folder.path() / "a", 100), "first\nsecond\nthird\n");
+  EXPECT_EQ(read_tail(folder.path() / "b", 100), "");
+}
+
+TEST(TempFolder, IsPrivateAndGoesAway) {
+  fs::path path;
+  {
+    const TempFolder folder;
+    path = folder.path();
+    struct stat status {};
+    ASSERT_EQ(::stat(path.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777u, 0700u);
+    write_atomically(path / "a", "x");
+  }
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(TempFolder, MovesWithItsContent) {
+  TempFolder first;
+  const fs::path path = first.path();
+  {
+    const TempFolder second = std::move(first);
+    EXPECT_EQ(second.path(), path);
+  }
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(MakeFolders, NamesAFileInTheWay) {
+  const TempFolder folder;
+  write_atomically(folder.path() / "file", "x");
+  make_folders(folder.path() / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
+  EXPECT_NE(message_of([&] { make_folders(folder.path() / "file"); }).find("file"), std::string::npos);
+  EXPECT_NE(message_of([&] { make_folders(folder.path() / "file" / "x"); }).find("cannot create"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rnmbake

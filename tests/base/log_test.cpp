@@ -1,0 +1,53 @@
+#include "base/log.h"
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+TEST(Log, TextNamesTheProgramAndTheLevel) {
+  EXPECT_EQ(log::format_line(log::Format::text, log::Level::info, "found", false), "rnmbake: found");
+  EXPECT_EQ(log::format_line(log::Format::text, log::Level::warning, "odd", false), "rnmbake: warning: odd");
+  EXPECT_EQ(log::format_line(log::Format::text, log::Level::error, "no", true),
+            "\033[31mrnmbake: error: \033[0mno");
+}
+
+TEST(Log, JsonSurvivesAnyMessage) {
+  const std::string line =
+      log::format_line(log::Format::jsonl, log::Level::warning, "a \"b\" \\ c\nd\x01 ü", false);
+  EXPECT_NE(line.find(R"("level":"warning","message":"a \"b\" \\ c\nd\u0001 ü"})"), std::string::npos)
+      << line;
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+TEST(Log, QuietKeepsErrors) {
+  log::init(-1, log::Format::text);
+  testing::internal::CaptureStderr();
+  log::info("nobody hears {}", 1);
+  log::warn("nor this");
+  log::error("but {}", "this");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "rnmbake: error: but this\n");
+  log::init(0, log::Format::text);
+}
+
+TEST(Log, DebugNeedsToBeAskedFor) {
+  log::init(0, log::Format::text);
+  testing::internal::CaptureStderr();
+  log::debug("hidden");
+  log::init(1, log::Format::text);
+  log::debug("shown");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "rnmbake: debug: shown\n");
+  log::init(0, log::Format::text);
+}
+
+TEST(Log, AMessageClearsTheBarFirst) {
+  testing::internal::CaptureStderr();
+  log::draw_bar("50 %");
+  log::info("x");
+  log::info("y");
+  log::draw_bar("");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "\r\033[K50 %\r\033[Krnmbake: x\nrnmbake: y\n");
+}
+
+}  // namespace
+}  // namespace rnmbake
