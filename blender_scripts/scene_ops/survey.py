@@ -10,6 +10,7 @@ import sys
 import bpy
 
 from scene_ops.describe import describe_light, describe_material, describe_world, light_group
+from scene_ops.keys import Keys, instancer_of
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
@@ -73,7 +74,7 @@ class Surveyor:
         self.meshes = MeshFile(task.path("survey.bin"))
         self.objects, self.lights, self.warnings = [], [], []
         self.material_names = set()
-        self._keys = set()
+        self._keys = Keys()
 
     def visit(self, depsgraph):
         override = depsgraph.view_layer_eval.material_override
@@ -92,13 +93,12 @@ class Surveyor:
         if mesh is None:
             return
         original = ob.original
-        instancer = instance.parent.original.name_full if instance.is_instance and instance.parent else ""
         slots = [material_name(override or slot.material) for slot in ob.material_slots]
         self.material_names.update(name for name in slots if name)
         self.objects.append({
-            "key": self.new_key(original, instancer),
+            "key": self._keys.new(instance),
             "name": original.name,
-            "instancer": instancer,
+            "instancer": instancer_of(instance),
             "type": original.type,
             "mesh": mesh,
             "matrix": [value for row in instance.matrix_world for value in row],
@@ -107,17 +107,6 @@ class Surveyor:
             "visible_to_camera": bool(ob.visible_camera),
         })
         self.task.progress("evaluate", original.name, len(self.objects))
-
-    def new_key(self, original, instancer):
-        """The object's name; instancer/name#n for instances, and wherever a library repeats a name."""
-        key = f"{instancer}/{original.name_full}" if instancer else original.name
-        if instancer or key in self._keys:
-            number = 0
-            while f"{key}#{number}" in self._keys:
-                number += 1
-            key = f"{key}#{number}"
-        self._keys.add(key)
-        return key
 
 
 def material_name(material):

@@ -1,0 +1,147 @@
+"""The published recipe, to the letter: each object keeps its place and its materials, and for each basis
+its own materials get that vector as a flat tangent-space normal map. Nothing is corrected.
+"""
+import bpy
+
+from core.stopwatch import Stopwatch
+from core.task import Refusal
+from scene_ops import cycles, parts, realize
+from scene_ops.receivers import read_floats
+
+
+def bake_targets(task, scene):
+    targets = task.request["targets"]
+    wholes = realize.targets_as_objects(targets)
+    return {"targets": [bake_target(task, scene, target, whole) for target, whole in zip(targets, wholes)]}
+
+
+def bake_target(task, scene, target, whole):
+    clock = Stopwatch()
+    prepare_uv(task, target, whole)
+    with parts.as_object(task, target, whole) as ob:
+        image = cycles.new_float_image("rnmbake bake", target["width"], target["height"])
+        materials = give_normal_map(ob, image, target["tangent_layer"], task.request["correct_bump"])
+        prepare = clock.lap()
+        for number, request in enumerate(target["bakes"]):
+            task.progress("bake", f"{target['label']} {request['basis']}", number, len(target["bakes"]))
+            for material in materials:
+                material.show_vector(request["direction"])
+            cycles.bake_diffuse(scene, ob)
+            cycles.save_pixels(image, task.path(request["pixels"]))
+        for material in materials:
+            material.restore()
+        bpy.data.images.remove(image)
+    return {"prepare_seconds": prepare, "bake_seconds": clock.lap()}
+
+
+def prepare_uv(task, target, ob):
+    """The bake writes through the ACTIVE layer; textures keep reading through the active-render one."""
+    layers = ob.data.uv_layers
+    if "uv_array" in target:
+        layer = layers.get("Lightmap") or layers.new(name="Lightmap", do_init=False)
+        with open(task.path(target["uv_array"]), "rb") as stream:
+            uv = read_floats(stream, 2 * len(ob.data.loops))
+        layer.data.foreach_set("uv", uv)
+        layers.active = layer
+        return
+    layer = layers.get(target["uv_layer"])
+    if layer is None:
+        raise Refusal(f"object '{ob.name}' has no UV layer '{target['uv_layer']}' of its own: a modifier makes it;"
+                      " apply that modifier, or bake with --recipe receiver", object_name=ob.name)
+    layers.active = layer
+
+
+class NormalMapped:
+    """A material of the target whose shading normal is one vector for the time of a bake."""
+
+    def __init__(self, slot, image, tangent_layer, correct_bump):
+        self._slot = slot
+        self._original = slot.material
+        self.material = slot.material.copy() if slot.material else _plain_material()
+        slot.material = self.material
+        if not self.material.use_nodes:
+            _use_own_color(self.material)
+        if correct_bump:
+            _turn_correction_off(self.material)
+        self._maps = [_connect(tree, tangent_layer) for tree in _trees_with_normals(self.material.node_tree)]
+        nodes = self.material.node_tree.nodes
+        texture = nodes.new("ShaderNodeTexImage")
+        texture.image = image
+        nodes.active = texture
+
+    def show_vector(self, direction):
+        color = [0.5 * c + 0.5 for c in direction] + [1]
+        for normal_map in self._maps:
+            normal_map.inputs["Color"].default_value = color
+
+    def restore(self):
+        self._slot.material = self._original
+        bpy.data.materials.remove(self.material)
+
+
+def give_normal_map(ob, image, tangent_layer, correct_bump):
+    if not ob.material_slots:
+        ob.data.materials.append(None)
+    for slot in ob.material_slots:  # other objects may share the mesh and its materials
+        material, slot.link = slot.material, "OBJECT"
+        slot.material = material
+    return [NormalMapped(slot, image, tangent_layer, correct_bump) for slot in ob.material_slots]
+
+
+def _plain_material():
+    material = bpy.data.materials.new("rnmbake default")
+    if not material.use_nodes:
+        material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    diffuse = nodes.new("ShaderNodeBsdfDiffuse")  # what Cycles shows where there is no material
+    diffuse.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1)
+    output = nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
+    return material
+
+
+def _use_own_color(material):
+    """Give a material without nodes the tree that Cycles renders it with."""
+    color = tuple(material.diffuse_color)
+    material.use_nodes = True
+    material.node_tree.nodes.clear()
+    diffuse = material.node_tree.nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = color
+    output = material.node_tree.nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
+
+
+def _turn_correction_off(material):
+    """Bump shadowing can be turned off from 4.2 on."""
+    for owner in (material, material.cycles):
+        if hasattr(owner, "use_bump_map_correction"):
+            owner.use_bump_map_correction = False
+
+
+def _trees_with_normals(tree):
+    """The tree itself and private copies of the groups in it, if a shader in them takes a normal."""
+    trees = []
+    for node in tree.nodes:
+        if node.type == "GROUP" and node.node_tree:
+            node.node_tree = node.node_tree.copy()
+            trees += _trees_with_normals(node.node_tree)
+    if any(_takes_normal(node) for node in tree.nodes):
+        trees.append(tree)
+    return trees
+
+
+def _takes_normal(node):
+    return "Normal" in node.inputs and any(out.type == "SHADER" for out in node.outputs)
+
+
+def _connect(tree, tangent_layer):
+    """Feed one Normal Map node to every shader of the tree, in place of what fed their normals."""
+    normal_map = tree.nodes.new("ShaderNodeNormalMap")
+    normal_map.space = "TANGENT"
+    normal_map.uv_map = tangent_layer
+    normal_map.inputs["Strength"].default_value = 1
+    for node in tree.nodes:
+        if _takes_normal(node):
+            tree.links.new(normal_map.outputs["Normal"], node.inputs["Normal"])
+    return normal_map

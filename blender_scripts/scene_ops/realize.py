@@ -1,0 +1,83 @@
+"""Instances, curves and the like become mesh objects of their own, where a bake needs an object to write to."""
+import bpy
+
+from core.task import Refusal
+from scene_ops.keys import Keys, instancer_of
+from scene_ops.survey import SURFACES, with_render_depsgraph
+
+
+def targets_as_objects(targets):
+    """One mesh object for each target, in order. Those that can stay as they are do."""
+    copies = realize({target["key"] for target in targets if needs_copy(target)})
+    return [copies.get(target["key"]) or bpy.data.objects[target["name"]] for target in targets]
+
+
+def needs_copy(target):
+    ob = bpy.data.objects.get(target["name"])
+    if ob is None or target["key"] != ob.name or ob.library or ob.type != "MESH" or ob.data.library:
+        return True
+    return "uv_array" in target or "polygons" in target or target["uv_layer"] not in ob.data.uv_layers
+
+
+def realize(keys, every=False):
+    """Replace what has one of these keys (or every surface) by plain objects; returns them by key.
+
+    An object that makes instances is replaced as a whole: it and all of its instances.
+    """
+    if not keys and not every:
+        return {}
+    found = {}
+    with_render_depsgraph(lambda depsgraph: _collect(depsgraph, keys, every, found))
+    originals = {bpy.data.objects[name] for name in found["replaced"] if name in bpy.data.objects}
+    objects = {key: _make_object(key, **content) for key, content in found["copies"].items()}
+    for ob in originals:
+        ob.hide_render = True
+        ob.instance_type = "NONE"
+    missing = keys - objects.keys()
+    if missing:
+        raise Refusal(f"'{sorted(missing)[0]}' was there when the scene was surveyed and is gone now")
+    return objects
+
+
+def _collect(depsgraph, keys, every, found):
+    """First find which originals have to go, then copy everything that goes with them."""
+    names, replaced = Keys(), set()
+    surfaces = []
+    for instance in depsgraph.object_instances:
+        if instance.show_self and instance.object.type in SURFACES:
+            key = names.new(instance)
+            owner = instancer_of(instance) or instance.object.original.name_full
+            surfaces.append((key, owner))
+            if every or key in keys:
+                replaced.add(owner)
+    going = {key for key, owner in surfaces if owner in replaced}
+    found["replaced"], found["copies"], meshes = replaced, {}, {}
+    names = Keys()
+    for instance in depsgraph.object_instances:
+        if instance.show_self and instance.object.type in SURFACES:
+            key = names.new(instance)
+            if key in going:
+                found["copies"][key] = _copy(instance, depsgraph, meshes)
+
+
+def _copy(instance, depsgraph, meshes):
+    ob = instance.object
+    mesh = bpy.data.meshes.new_from_object(ob, preserve_all_data_layers=True, depsgraph=depsgraph)
+    materials = [slot.material.original if slot.material else None for slot in ob.material_slots]
+    return {"mesh": mesh, "matrix": instance.matrix_world.copy(), "materials": materials,
+            "visible": {name: getattr(ob, name) for name in dir(ob) if name.startswith("visible_")
+                        and isinstance(getattr(ob, name), bool)}}
+
+
+def _make_object(key, mesh, matrix, materials, visible):
+    ob = bpy.data.objects.new(key[:60], mesh)
+    bpy.context.scene.collection.objects.link(ob)
+    ob.matrix_world = matrix
+    while len(mesh.materials) < len(materials):
+        mesh.materials.append(None)
+    for slot, material in zip(ob.material_slots, materials):
+        slot.link = "OBJECT"
+        slot.material = material
+    for name, value in visible.items():
+        setattr(ob, name, value)
+    return ob
