@@ -1,0 +1,189 @@
+#include "cli/app.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/names.h"
+#include "cli/help_format.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#if __has_include("cli/bake.h")
+#include "cli/bake.h"
+#endif
+#if __has_include("cli/inspect.h")
+#include "cli/inspect.h"
+#endif
+#if __has_include("cli/doctor.h")
+#include "cli/doctor.h"
+#endif
+#if __has_include("cli/decode.h")
+#include "cli/decode.h"
+#endif
+
+namespace rnmbake {
+
+namespace {
+
+constexpr const char* purpose =
+    "rnmbake bakes the light of a Blender or glTF scene into directional lightmaps: for each\n"
+    "object one EXR with the plain lightmap and the three maps of the Half-Life 2 basis (radiosity\n"
+    "normal maps), from which an engine lights normal-mapped surfaces. Blender's Cycles does the\n"
+    "tracing, headless; the encoding is exact, and every file says in its header what it holds.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  rnmbake doctor                                   is there a Blender that can bake?\n"
+    "  rnmbake inspect hall.blend                       what would be baked, at which size\n"
+    "  rnmbake bake hall.blend -o lightmaps             bake everything\n"
+    "  rnmbake bake hall.toml --samples 64              a project file, with one setting changed\n"
+    "  rnmbake decode lightmaps/floor.exr --normal n.png -o lit.exr\n"
+    "\n"
+    "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"
+    "4 no usable Blender, 5 unsupported, 6 some objects failed, 7 threshold exceeded, 8 locked.";
+
+struct Command {
+  const char* name;
+  std::function<int()> (*add)(CLI::App&);
+};
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all {
+#if __has_include("cli/bake.h")
+    {"bake", add_bake_command},
+#endif
+#if __has_include("cli/inspect.h")
+        {"inspect", add_inspect_command},
+#endif
+#if __has_include("cli/doctor.h")
+        {"doctor", add_doctor_command},
+#endif
+#if __has_include("cli/decode.h")
+        {"decode", add_decode_command},
+#endif
+  };
+  return all;
+}
+
+struct GlobalFlags {
+  bool quiet = false;
+  std::string log_format = "text";
+  CLI::Option* verbose = nullptr;
+
+  void add_to(CLI::App& app) {
+    app.add_flag("-q,--quiet", quiet, "errors only");
+    verbose = app.add_flag("-v,--verbose", "say more; twice: everything");
+    app.add_option("--log-format", log_format,
+                   "diagnostics on stderr as text, or as one JSON object a line (jsonl)")
+        ->check(CLI::IsMember({"text", "jsonl"}))
+        ->type_name("FORMAT");
+  }
+  void apply() const {
+    const int verbosity = quiet ? -1 : static_cast<int>(verbose->count());
+    log::init(verbosity, log_format == "jsonl" ? log::Format::jsonl : log::Format::text);
+  }
+};
+
+CLI::App* chosen(CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? nullptr : parsed.front();
+}
+
+std::string help_hint(CLI::App& app) {
+  const CLI::App* command = chosen(app);
+  return fmt::format("see 'rnmbake {}--help'", command == nullptr ? "" : command->get_name() + " ");
+}
+
+std::vector<std::string> long_flags(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+[[noreturn]] void unknown_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  fail(ExitCode::usage, "unknown command '{}'{}{} commands are {}", word, did_you_mean(word, names),
+       did_you_mean(word, names).empty() ? ";" : "", fmt::join(names, ", "));
+}
+
+/// CLI11 collects what it does not know; an unknown flag is named before the words that followed it.
+void refuse_leftovers(CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  const auto is_flag = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
+  const auto flag = std::find_if(left.begin(), left.end(), is_flag);
+  CLI::App* command = chosen(app);
+  if (flag != left.end()) {
+    const std::string name = flag->substr(0, flag->find('='));
+    std::vector<std::string> known = long_flags(app);
+    if (command != nullptr) {
+      for (std::string& one : long_flags(*command)) known.push_back(std::move(one));
+    }
+    const std::string hint = did_you_mean(name, known);
+    fail(ExitCode::usage, "unknown flag '{}'{}", name, hint.empty() ? "; " + help_hint(app) : hint);
+  }
+  if (command == nullptr && !left.empty()) unknown_command(left.front());
+  if (command == nullptr) fail(ExitCode::usage, "no command given; {}", help_hint(app));
+  if (!left.empty()) fail(ExitCode::usage, "unexpected argument '{}'; {}", left.front(), help_hint(app));
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App app{purpose, "rnmbake"};
+  app.formatter(std::make_shared<HelpFormat>());
+  app.footer(examples);
+  app.set_version_flag("--version", "rnmbake " RNMBAKE_VERSION);
+  app.fallthrough()->allow_extras();
+  app.require_subcommand(0, 1);
+  GlobalFlags globals;
+  globals.add_to(app);
+  std::vector<std::function<int()>> actions;
+  for (const Command& command : commands()) {
+    actions.push_back(command.add(app));
+    app.get_subcommand(command.name)->allow_extras(false);
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
+    fail(ExitCode::usage, "{}; {}", problem.what(), help_hint(app));
+  }
+  globals.apply();
+  refuse_leftovers(app);
+  for (std::size_t i = 0; i < commands().size(); ++i) {
+    if (app.got_subcommand(commands()[i].name)) return actions[i]();
+  }
+  return static_cast<int>(ExitCode::usage);  // not reached: refuse_leftovers() has seen a command
+}
+
+/// Libraries put line breaks into their messages; a diagnostic is one line.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) noexcept {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const Error& error) {
+    log::error("{}", one_line(error.what()));
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    log::error("{}", one_line(error.what()));
+  }
+  return static_cast<int>(ExitCode::io);
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,52 @@
+#include "cli/help_format.h"
+
+#include <sstream>
+
+namespace rnmbake {
+
+namespace {
+
+std::string names_of(const CLI::Option* option) {
+  std::string names;
+  for (const std::string& name : option->get_snames()) names += "-" + name + ", ";
+  const auto& negated = option->get_fnames();
+  for (const std::string& name : option->get_lnames()) {
+    if (std::find(negated.begin(), negated.end(), name) != negated.end()) continue;
+    names += (negated.empty() ? "--" : "--[no-]") + name + ", ";
+  }
+  return names.substr(0, names.size() - 2);
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string word, out;
+  std::size_t used = 0;
+  while (words >> word) {
+    if (used > 0 && used + 1 + word.size() > width) {
+      out += '\n';
+      used = 0;
+    } else if (used > 0) {
+      out += ' ';
+      ++used;
+    }
+    out += word;
+    used += word.size();
+  }
+  return out;
+}
+
+std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
+  const std::string name = is_positional ? option->get_name(true) : names_of(option);
+  std::ostringstream out;
+  CLI::detail::format_help(out, "  " + name + (is_positional ? "" : make_option_opts(option)),
+                           wrapped(option->get_description(), columns - left_column), left_column);
+  return out.str();
+}
+
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+  return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,42 @@
+// cli/settings_flags.h - the settings of config/settings.h as flags of one command.
+#pragma once
+
+#include "config/resolve.h"
+
+#include <iosfwd>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace rnmbake {
+
+/// Adds the argument SCENE, a flag for each setting (grouped by table) and --print-config.
+/// Must live as long as `command`.
+class SettingsFlags {
+ public:
+  explicit SettingsFlags(CLI::App& command);
+  SettingsFlags(const SettingsFlags&) = delete;
+  SettingsFlags& operator=(const SettingsFlags&) = delete;
+
+  /// After parsing. Reads project file and environment, checks that the scene exists.
+  /// nullopt: --print-config was asked for and answered on `out`, the command ends with 0.
+  /// Throws Error(usage), Error(io).
+  [[nodiscard]] std::optional<ResolvedConfig> resolve(std::ostream& out) const;
+  [[nodiscard]] std::optional<ResolvedConfig> resolve() const;  // on stdout
+
+ private:
+  void add(CLI::App& command, const Setting& setting);
+  [[nodiscard]] std::vector<Given> given_flags() const;
+
+  std::vector<std::pair<const Setting*, CLI::Option*>> options_;
+  CLI::Option* scene_ = nullptr;
+  CLI::Option* print_config_ = nullptr;
+  CLI::Option* print_reference_ = nullptr;
+};
+
+}  // namespace rnmbake

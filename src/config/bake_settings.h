@@ -1,0 +1,94 @@
+// config/bake_settings.h - everything that a user can set, as plain structs with the defaults inside.
+// Names, ranges and help of each setting stand in config/settings.cpp; one line there for each field here.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// What an [[override]] may set for some objects only. Where UVs, pixels and light of one target come from.
+struct ObjectSettings {
+  enum class Unwrap { when_needed, never, always };
+  enum class Horizon { identity, clamp };
+  enum class Split { none, material, loose };
+
+  std::string uv;  // lightmap UV layer; "": found by its name, else unwrapped
+  Unwrap unwrap = Unwrap::when_needed;
+  int unwrap_margin = 4;                           // texels between charts
+  std::string tangent_uv;                          // "": the active-render layer
+  bool flip_green = false;                         // normal maps with Y down
+  int resolution = 256;                            // texels along a side, unless texels_per_unit is set
+  double texels_per_unit = 0;                      // 0: use resolution
+  int min_resolution = 16, max_resolution = 2048;  // limits of what texels_per_unit gives
+  Horizon horizon = Horizon::identity;             // corners whose basis normal lies under their face
+  Split split = Split::none;
+  int samples = 256;
+  int seed = 0;
+  double clamp = 0;  // radiance; 0: off
+  int dilate = 4;    // texels; [output] in the project file
+};
+
+struct SceneSettings {
+  enum class Materials { full, lambert };
+
+  std::filesystem::path file;  // .blend, .glb, .gltf; "" when only a project's settings were asked for
+  std::vector<std::string> objects{"*"};
+  std::vector<std::string> exclude;
+  bool allow_scripts = false;
+  Materials materials = Materials::full;
+};
+
+struct BakingSettings {
+  enum class Recipe { receiver, flat_normal_map };
+  enum class Dispatch { automatic, basis, object, scene };
+  enum class Device { cpu, cuda, optix, hip, metal, oneapi };
+
+  std::vector<std::string> bases{"flat", "rnm0", "rnm1", "rnm2"};  // with a basis file: see bases_given
+  bool bases_given = false;     // false and a basis file is set: every vector of that file
+  std::filesystem::path basis;  // file with a list of unit vectors; "": RNM
+  Recipe recipe = Recipe::receiver;
+  bool correct_bump = false;  // flat_normal_map only
+  Dispatch dispatch = Dispatch::automatic;
+  int atlas_limit = 16777216;  // pixels of one bake call
+  int memory_limit = 0;        // MiB; 0: from the machine
+  int bounces = 32;
+  Device device = Device::cpu;
+};
+
+struct OutputSettings {
+  enum class Layout { layers, files };
+  enum class Depth { half, full };
+  enum class Normalize { none, flat };
+  enum class SaveScene { when_unwrapped, never, always };
+
+  std::filesystem::path dir;  // "": not given; `bake` needs it, `inspect` does not
+  Layout layout = Layout::layers;
+  Depth depth = Depth::half;
+  bool frames = false;
+  Normalize normalize = Normalize::none;
+  bool repair = false;
+  SaveScene save_scene = SaveScene::when_unwrapped;
+  bool keep_temporary = false;
+};
+
+struct RunSettings {
+  std::string blender;            // path, or a name to look up in PATH; "": search
+  std::filesystem::path scripts;  // "": those inside the binary
+  int jobs = 0;                   // Blenders at a time; 0: chosen from cores and memory
+  int threads = 0;                // for each Blender; 0: all cores shared among the jobs
+  int timeout = 600;              // seconds without progress
+  int retries = 1;
+};
+
+struct BakeSettings {
+  SceneSettings scene;
+  BakingSettings bake;
+  ObjectSettings object;  // what holds where no override matches
+  OutputSettings output;
+  RunSettings run;
+};
+
+}  // namespace rnmbake

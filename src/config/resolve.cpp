@@ -1,0 +1,195 @@
+#include "config/resolve.h"
+
+#include "base/error.h"
+#include "base/names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <system_error>
+
+namespace rnmbake {
+
+namespace {
+
+bool any_match(const std::vector<std::string>& patterns, std::string_view name, std::string_view key) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return glob_match(pattern, name) || glob_match(pattern, key);
+  });
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+void check_limits(const ObjectSettings& object, const std::string& where) {
+  if (object.min_resolution > object.max_resolution) {
+    fail(ExitCode::usage, "{}: min_resolution = {} is above max_resolution = {}; change one of them", where,
+         object.min_resolution, object.max_resolution);
+  }
+}
+
+void check_bases(const BakingSettings& bake, const std::string& where) {
+  static const std::vector<std::string> known{"flat", "rnm0", "rnm1", "rnm2"};
+  if (bake.bases.empty()) fail(ExitCode::usage, "{}: 'bases' is empty; give at least one direction", where);
+  std::set<std::string> seen;
+  for (const std::string& name : bake.bases) {
+    // Names from a basis file are checked where that file is read.
+    if (bake.basis.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
+      fail(ExitCode::usage, "{}: unknown basis '{}'; give {}{}", where, name, fmt::join(known, ", "),
+           did_you_mean(name, known));
+    }
+    if (!seen.insert(name).second) {
+      fail(ExitCode::usage, "{}: '{}' stands twice in 'bases'; name it once", where, name);
+    }
+  }
+}
+
+}  // namespace
+
+void ResolvedConfig::take(const Given& given) {
+  given.setting->slot.set(globals, given.value);
+  values_.at(static_cast<std::size_t>(given.setting - settings().data())) = given;
+}
+
+const Given& ResolvedConfig::given(std::string_view key) const {
+  for (const Given& one : values_) {
+    if (one.setting->key == key) return one;
+  }
+  throw std::logic_error(fmt::format("no setting has the key '{}'", key));
+}
+
+const std::string& ResolvedConfig::provenance(std::string_view key) const {
+  return given(key).where;
+}
+
+/// texels_per_unit normally decides alone. But who types --resolution 64 over a project that chooses sizes by
+/// surface asks for 64: of the two, the one from the stronger source counts.
+void ResolvedConfig::let_stronger_resolution_win() {
+  const Given& fixed = given("resolution");
+  const Given& by_surface = given("texels_per_unit");
+  const bool project_only =
+      fixed.source == SettingSource::project;  // by_surface is off then, and may be overridden
+  if (fixed.source > by_surface.source && !project_only) {
+    take({by_surface.setting, 0.0, fixed.source, fixed.where});
+  }
+}
+
+bool ResolvedConfig::fixed_for_all(const Setting& setting) const {
+  return values_.at(static_cast<std::size_t>(&setting - settings().data())).source >=
+         SettingSource::environment;
+}
+
+void ResolvedConfig::apply(const ObjectOverride& override_, BakeSettings& settings) const {
+  const auto sets = [&](std::string_view key) {
+    return std::any_of(override_.values.begin(), override_.values.end(),
+                       [&](const Given& one) { return one.setting->key == key; });
+  };
+  for (const Given& one : override_.values) {
+    if (!fixed_for_all(*one.setting)) one.setting->slot.set(settings, one.value);
+  }
+  if (sets("resolution") && !sets("texels_per_unit") && !fixed_for_all(*find_setting("texels_per_unit"))) {
+    settings.object.texels_per_unit = 0;
+  }
+}
+
+ObjectSettings ResolvedConfig::for_object(std::string_view name, std::string_view key) const {
+  BakeSettings result = globals;
+  for (const ObjectOverride& override_ : overrides_) {
+    if (any_match(override_.objects, name, key)) apply(override_, result);
+  }
+  check_limits(result.object, fmt::format("object '{}'", key));
+  return result.object;
+}
+
+bool ResolvedConfig::selects(std::string_view name, std::string_view key) const {
+  return any_match(globals.scene.objects, name, key) && !any_match(globals.scene.exclude, name, key);
+}
+
+void ResolvedConfig::check_together() const {
+  const bool least_given = provenance("min_resolution") != "default";
+  check_limits(globals.object, provenance(least_given ? "min_resolution" : "max_resolution"));
+  check_bases(globals.bake, provenance("bases"));
+  const auto& bases = globals.bake.bases;
+  if (globals.output.normalize == OutputSettings::Normalize::flat && globals.bake.basis.empty() &&
+      std::find(bases.begin(), bases.end(), "flat") == bases.end()) {
+    fail(ExitCode::usage, "{}: normalize = flat needs the flat bake; add flat to 'bases' ({})",
+         provenance("normalize"), provenance("bases"));
+  }
+}
+
+ResolvedConfig resolve(const ProjectFile& project, const std::vector<Given>& environment,
+                       const std::vector<Given>& flags) {
+  ResolvedConfig config;
+  for (const Setting& setting : settings()) {
+    Given given{&setting, setting.default_value(), SettingSource::fallback, "default"};
+    config.values_.push_back(std::move(given));
+  }
+  for (const auto* layer : {&project.values, &environment, &flags}) {
+    for (const Given& given : *layer) config.take(given);
+  }
+  config.let_stronger_resolution_win();
+  config.globals.bake.bases_given = config.provenance("bases") != "default";
+  config.overrides_ = project.overrides;
+  config.check_together();
+  return config;
+}
+
+std::vector<std::string> unmatched(const std::vector<std::string>& patterns,
+                                   const std::vector<std::string>& names) {
+  std::vector<std::string> lonely;
+  for (const std::string& pattern : patterns) {
+    const auto fits = [&](const std::string& name) { return glob_match(pattern, name); };
+    if (std::none_of(names.begin(), names.end(), fits)) lonely.push_back(pattern);
+  }
+  return lonely;
+}
+
+std::vector<UnmatchedPattern> unmatched_patterns(const ResolvedConfig& config,
+                                                 const std::vector<std::string>& names) {
+  std::vector<UnmatchedPattern> all;
+  const auto add = [&](const std::vector<std::string>& patterns, const std::string& where) {
+    for (const std::string& pattern : unmatched(patterns, names)) {
+      UnmatchedPattern one{pattern, where};
+      all.push_back(std::move(one));
+    }
+  };
+  if (config.provenance("objects") != "default") {
+    add(config.globals.scene.objects, config.provenance("objects"));
+  }
+  add(config.globals.scene.exclude, config.provenance("exclude"));
+  for (const ObjectOverride& override_ : config.overrides()) add(override_.objects, override_.where);
+  return all;
+}
+
+bool is_project_path(const std::filesystem::path& path) {
+  return extension_of(path) == ".toml";
+}
+
+void require_scene(const ResolvedConfig& config) {
+  static constexpr std::array<std::string_view, 3> endings{".blend", ".glb", ".gltf"};
+  const std::filesystem::path& file = config.globals.scene.file;
+  if (file.empty()) {
+    fail(ExitCode::usage,
+         "no scene: name a .blend, .glb or .gltf file, or a project .toml whose [scene] sets file");
+  }
+  if (std::find(endings.begin(), endings.end(), extension_of(file)) == endings.end()) {
+    fail(ExitCode::usage,
+         "{}: not a scene by its ending; give a .blend, .glb or .gltf file, or a project .toml",
+         file.string());
+  }
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status)) {
+    fail(ExitCode::io, "{}: no such scene file; check the path ({})", file.string(),
+         config.provenance("file"));
+  }
+  if (std::filesystem::is_directory(status)) {
+    fail(ExitCode::io, "{}: is a folder; name the scene file in it", file.string());
+  }
+}
+
+}  // namespace rnmbake
