@@ -14,7 +14,9 @@ class FloatImage {
  public:
   FloatImage() = default;
   FloatImage(int width, int height, int channels)
-      : width_(width), height_(height), channels_(channels),
+      : width_(width),
+        height_(height),
+        channels_(channels),
         data_(static_cast<std::size_t>(width) * height * channels, 0.0F) {}
 
   [[nodiscard]] int width() const { return width_; }

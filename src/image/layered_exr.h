@@ -1,13 +1,13 @@
 // image/layered_exr.h - multi-layer OpenEXR files in and out.
 #pragma once
 
+#include "image/float_image.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "image/float_image.h"
 
 namespace rnmbake {
 
