@@ -24,7 +24,8 @@ make_root() {
   echo "dev: making a Debian $suite in $root (once)" >&2
   if [[ ! -e $part/.base ]]; then
     rm -rf --one-file-system "$part"
-    unshare --mount --propagation private debootstrap --variant=minbase "$suite" "$part" \
+    mkdir -p "$part"
+    unshare --mount --propagation private debootstrap --variant=minbase "$suite" "$PWD/$part" \
       "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" || return
     touch "$part/.base"
   fi
