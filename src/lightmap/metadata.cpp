@@ -67,16 +67,20 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
+void check_layer(const Header& header, const LayeredImage& image, const std::string& name) {
+  const Layer* layer = image.find(name == "flat" ? "" : name);
+  if (layer != nullptr && layer->channels == std::vector<std::string>{"R", "G", "B"}) return;
+  header.refuse("the header lists basis '" + name + "' but there is no RGB layer of it");
+}
+
 std::vector<BasisDirection> bases_of(const Header& header, const LayeredImage& image) {
+  const bool is_whole = !image.attributes.contains(prefix + "layer");  // see lightmap/layout.h
   std::vector<BasisDirection> bases;
   for (const std::string& name : split(header.required<std::string>("basis"))) {
     if (std::ranges::count(bases, name, &BasisDirection::name) > 0)
       header.refuse("basis '" + name + "' is listed twice");
     bases.push_back({name, direction_of(header, name)});
-    const Layer* layer = image.find(name == "flat" ? "" : name);
-    if (layer == nullptr || layer->channels != std::vector<std::string>{"R", "G", "B"}) {
-      header.refuse("the header lists basis '" + name + "' but there is no RGB layer of it");
-    }
+    if (is_whole) check_layer(header, image, name);
   }
   if (bases.empty()) header.refuse(prefix + "basis lists nothing");
   return bases;

@@ -1,0 +1,178 @@
+#include "cli/decode.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "basis/basis_set.h"
+#include "image/display_png.h"
+#include "image/layered_exr.h"
+#include "lightmap/decode.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace rnmbake {
+namespace {
+
+struct DecodeOptions {
+  std::filesystem::path lightmap, normal_map, output;
+  std::array<float, 3> normal_vector{0, 0, 1};
+  DecodeVariant variant = DecodeVariant::squared;
+  std::optional<Green> normal_green;  // none: not said, taken as y-up
+  bool flip_green = false, force = false;
+  float exposure = 0;
+};
+
+const std::map<std::string, DecodeVariant> variants{{"squared", DecodeVariant::squared},
+                                                    {"linear", DecodeVariant::linear},
+                                                    {"vrad", DecodeVariant::vrad},
+                                                    {"single", DecodeVariant::single}};
+const std::map<std::string, Green> greens{{"y-up", Green::y_up}, {"y-down", Green::y_down}};
+
+[[noreturn]] void refuse(const DecodeOptions& options, const std::string& why, const std::string& remedy) {
+  fail(ExitCode::unsupported, "{} does not fit the {} decode: {}; {}", options.lightmap.string(),
+       name_of(options.variant), why, remedy);
+}
+
+/// A header that cannot be relied on, taken for what rnmbake writes by default.
+LightmapMetadata assumed_metadata(const DecodeOptions& options, const std::string& why) {
+  log::warn("{}: {}; decoded as an RNM lightmap in E/pi, y-up, not normalized", options.lightmap.string(),
+            why);
+  LightmapMetadata metadata;
+  metadata.bases = rnm_set().directions;
+  return metadata;
+}
+
+LightmapMetadata metadata_of(const DecodeOptions& options, const LayeredImage& image) {
+  if (image.attributes.contains("rnmbake:layer")) {
+    refuse(options, "it holds one layer of a lightmap only",
+           "decode the file of a bake with --layout layers");
+  }
+  if (!has_metadata(image)) {
+    const char* why = "its header names no convention";
+    if (!options.force) refuse(options, why, "decode a lightmap that rnmbake wrote, or add --force");
+    return assumed_metadata(options, why);
+  }
+  try {
+    return read_metadata(image, options.lightmap.string());
+  } catch (const Error& error) {
+    if (!options.force) throw;
+    return assumed_metadata(options, error.what());
+  }
+}
+
+void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
+  if (const auto why = decode_obstacle(metadata, options.variant)) {
+    if (!options.force) refuse(options, *why, "choose another --variant, or add --force");
+    log::warn("{}: {}; decoded all the same", options.lightmap.string(), *why);
+  }
+  const bool uses_normal = options.variant != DecodeVariant::single;
+  if (uses_normal && !options.normal_green && metadata.green == Green::y_down && !options.force) {
+    refuse(options, "it was baked for y-down normal maps and the normals are taken as y-up",
+           "say --normal-green y-down (or --flip-green) or --normal-green y-up");
+  }
+}
+
+FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
+  const Green green = options.normal_green.value_or(Green::y_up);
+  if (options.normal_map.empty()) {
+    const auto& [x, y, z] = options.normal_vector;
+    return decode(std::move(lightmap), Vec3(x, y, z), green, options.variant);
+  }
+  const LayeredImage picture = read_image(options.normal_map);
+  return decode(std::move(lightmap), NormalMap{normals_of(picture, options.normal_map.string()), green},
+                options.variant);
+}
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void write(const DecodeOptions& options, FloatImage&& picture) {
+  if (extension_of(options.output) == ".png")
+    return write_display_png(options.output, picture, options.exposure);
+  const float gain = std::exp2(options.exposure);
+  for (float& value : picture.data()) value *= gain;
+  LayeredImage image;
+  image.layers.push_back({"", {"R", "G", "B"}, std::move(picture)});
+  image.attributes["rnmbake:decoded"] = std::string(name_of(options.variant));
+  image.attributes["rnmbake:exposure"] = options.exposure;
+  write_exr(options.output, image, Depth::full);
+}
+
+void check_options(DecodeOptions& options) {
+  const std::string extension = extension_of(options.output);
+  if (extension != ".exr" && extension != ".png") {
+    fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", options.output.string());
+  }
+  const auto& [x, y, z] = options.normal_vector;
+  const float length = Vec3(x, y, z).length();
+  if (!(length > 0) || !std::isfinite(length)) {
+    fail(ExitCode::usage, "--normal-vector {},{},{} has no direction; give x,y,z such as 0,0,1", x, y, z);
+  }
+  if (options.flip_green) options.normal_green = Green::y_down;
+}
+
+int run(DecodeOptions options) {
+  check_options(options);
+  const LayeredImage image = read_image(options.lightmap);
+  const LightmapMetadata metadata = metadata_of(options, image);
+  check_fit(options, metadata);
+  write(options, decoded(options, lightmap_of(image, metadata)));
+  return static_cast<int>(ExitCode::ok);
+}
+
+}  // namespace
+
+std::function<int()> add_decode_command(CLI::App& app) {
+  auto options = std::make_shared<DecodeOptions>();
+  CLI::App* command = app.add_subcommand("decode", "Light a normal map with a lightmap, as a shader would");
+  command->add_option("lightmap", options->lightmap, "a lightmap that rnmbake wrote (.exr)")->required();
+  auto* normals = command->add_option_group("normals");
+  normals->add_option("--normal", options->normal_map,
+                      "tangent-space normal map (.png, .jpg, .exr, ...) of the lightmap's UV layout");
+  normals
+      ->add_option("--normal-vector", options->normal_vector,
+                   "one tangent-space normal for all texels: x,y,z")
+      ->delimiter(',');
+  normals->require_option(1);
+  command
+      ->add_option(
+          "-o,--output", options->output,
+          "what to write: .exr (E/pi, float) or .png (to look at: clamped to [0,1] and sRGB-encoded)")
+      ->required();
+  command
+      ->add_option("--variant", options->variant,
+                   "squared: sum w LM / sum w, w = sat(dot)^2; linear: sum sat(dot) LM; vrad: squared on "
+                   "maps scaled to the "
+                   "flat bake; single: the flat bake. Unless the lightmap was baked with --normalize flat, "
+                   "squared returns "
+                   "0.789 of a uniform sky and 0.577 of an overhead sun for a flat normal")
+      ->transform(CLI::CheckedTransformer(variants))
+      ->option_text("squared|linear|vrad|single [squared]");
+  auto* green =
+      command->add_option("--normal-green", options->normal_green, "where the normals' green points [y-up]")
+          ->transform(CLI::CheckedTransformer(greens))
+          ->option_text("y-up|y-down");
+  command
+      ->add_flag("--flip-green", options->flip_green,
+                 "the normals are y-down (Unreal, Source): --normal-green y-down")
+      ->excludes(green);
+  command->add_option("--exposure", options->exposure, "multiply the result by 2^EXPOSURE [0]")
+      ->option_text("STOPS");
+  command->add_flag("--force", options->force, "decode although the header says that the maps do not fit");
+  return [options] { return run(*options); };
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,171 @@
+#include "lightmap/decode.h"
+
+#include "base/error.h"
+#include "basis/rnm.h"
+#include "image/sample.h"
+#include "lightmap/normalize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+void require_layers(const Lightmap& lightmap, DecodeVariant variant) {
+  const bool scales = variant == DecodeVariant::vrad && lightmap.metadata.normalize == Normalize::none;
+  if ((variant == DecodeVariant::single || scales) && lightmap.flat.empty()) {
+    fail(ExitCode::unsupported,
+         "the {} decode needs the flat layer, which this lightmap does not have; bake flat too",
+         name_of(variant));
+  }
+  if (variant == DecodeVariant::single) return;
+  if (std::ranges::any_of(lightmap.rnm, &FloatImage::empty)) {
+    fail(ExitCode::unsupported, "the {} decode needs the layers rnm0, rnm1 and rnm2; bake all three",
+         name_of(variant));
+  }
+}
+
+const FloatImage& sized_like(const Lightmap& lightmap) {
+  return lightmap.flat.empty() ? lightmap.rnm[0] : lightmap.flat;
+}
+
+/// Looks the maps up at one place of the lightmap and decodes there.
+class Decoder {
+ public:
+  Decoder(const Lightmap& lightmap, DecodeVariant variant) : lightmap_(lightmap), variant_(variant) {}
+
+  [[nodiscard]] Vec3 at(const Vec2& uv, const Vec3& normal) const {
+    auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
+    if (!lightmap_.coverage.empty()) taps = covered_taps(taps, lightmap_.coverage);
+    if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
+    const std::array<Vec3, 3> maps{colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps),
+                                   colour(lightmap_.rnm[2], taps)};
+    return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, normal)
+                                             : rnm_decode_squared(maps, normal);
+  }
+
+ private:
+  static Vec3 colour(const FloatImage& map, const std::array<Tap, 4>& taps) {
+    std::array<float, 3> rgb{};
+    sample(map, taps, rgb);
+    return {rgb[0], rgb[1], rgb[2]};
+  }
+
+  const Lightmap& lightmap_;
+  DecodeVariant variant_;
+};
+
+Vec3 turned(Vec3 normal, Green from, Green to) {
+  if (from != to) normal.y = -normal.y;
+  return normal;
+}
+
+template <typename NormalAt>
+FloatImage decode_all(Lightmap& lightmap, DecodeVariant variant, FloatImage result, NormalAt normal_at) {
+  require_layers(lightmap, variant);
+  if (variant == DecodeVariant::vrad && lightmap.metadata.normalize == Normalize::none)
+    normalize_to_flat({&lightmap.rnm[0], &lightmap.rnm[1], &lightmap.rnm[2]}, lightmap.flat);
+  const Decoder decoder(lightmap, variant);
+  for (int y = 0; y < result.height(); ++y) {
+    for (int x = 0; x < result.width(); ++x) {
+      const Vec3 colour = decoder.at(texel_uv(result, x, y), normal_at(x, y));
+      std::ranges::copy(std::array{colour.x, colour.y, colour.z}, result.texel(x, y).begin());
+    }
+  }
+  return result;
+}
+
+const Layer& normal_layer(const LayeredImage& picture, const std::string& file) {
+  for (const char* name : {"", "normal"}) {
+    const Layer* layer = picture.find(name);
+    if (layer != nullptr && layer->pixels.channels() >= 2 && layer->channels[1] != "A") return *layer;
+  }
+  fail(ExitCode::invalid_input, "{} holds no normals: two or three plain channels are needed", file);
+}
+
+Vec3 normal_from(std::span<const float> texel, bool is_signed, bool has_z) {
+  const auto component = [&](std::size_t i) { return is_signed ? texel[i] : 2 * texel[i] - 1; };
+  const float x = component(0), y = component(1);
+  const Vec3 normal(x, y, has_z ? component(2) : std::sqrt(std::max(0.0F, 1 - x * x - y * y)));
+  const float length = normal.length();
+  return length > 0 && std::isfinite(length) ? normal / length : Vec3(0, 0, 1);
+}
+
+std::optional<std::string> rnm_obstacle(const LightmapMetadata& metadata, DecodeVariant variant) {
+  if (!holds_rnm({"header", metadata.bases}))
+    return "its directions are not the three of the Half-Life 2 basis";
+  if (variant == DecodeVariant::linear && metadata.normalize == Normalize::flat) {
+    return "its maps are scaled to the flat bake (normalize flat), which the linear decode does not expect";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata) {
+  const auto pixels = [&](const char* name, int channels) {
+    const Layer* layer = image.find(name);
+    return layer != nullptr && layer->pixels.channels() == channels ? layer->pixels : FloatImage();
+  };
+  return {metadata,
+          pixels("", 3),
+          {pixels("rnm0", 3), pixels("rnm1", 3), pixels("rnm2", 3)},
+          pixels("coverage", 1)};
+}
+
+const char* name_of(DecodeVariant variant) {
+  switch (variant) {
+    case DecodeVariant::squared:
+      return "squared";
+    case DecodeVariant::linear:
+      return "linear";
+    case DecodeVariant::vrad:
+      return "vrad";
+    case DecodeVariant::single:
+      return "single";
+  }
+  return "unknown";
+}
+
+FloatImage normals_of(const LayeredImage& picture, const std::string& file) {
+  const Layer& layer = normal_layer(picture, file);
+  const FloatImage& source = layer.pixels;
+  const bool has_z = source.channels() >= 3 && layer.channels[2] != "A";
+  const bool is_signed =
+      layer.channels[0] == "X" || std::ranges::any_of(source.data(), [](float value) { return value < 0; });
+  FloatImage normals(source.width(), source.height(), 3);
+  for (int y = 0; y < source.height(); ++y) {
+    for (int x = 0; x < source.width(); ++x) {
+      const Vec3 normal = normal_from(source.texel(x, y), is_signed, has_z);
+      std::ranges::copy(std::array{normal.x, normal.y, normal.z}, normals.texel(x, y).begin());
+    }
+  }
+  return normals;
+}
+
+std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata, DecodeVariant variant) {
+  if (metadata.convention != clipped_hemisphere_integral)
+    return "its convention is '" + metadata.convention + "'";
+  if (metadata.units != "E/pi") return "its units are '" + metadata.units + "'";
+  if (metadata.space != "tangent") return "its directions are in " + metadata.space + " space";
+  if (metadata.handedness != "right") return "its frame is " + metadata.handedness + "-handed";
+  return variant == DecodeVariant::single ? std::nullopt : rnm_obstacle(metadata, variant);
+}
+
+FloatImage decode(Lightmap lightmap, const NormalMap& normal_map, DecodeVariant variant) {
+  const FloatImage& normals = normal_map.normals;
+  return decode_all(lightmap, variant, FloatImage(normals.width(), normals.height(), 3), [&](int x, int y) {
+    const auto n = normals.texel(x, y);
+    return turned({n[0], n[1], n[2]}, normal_map.green, lightmap.metadata.green);
+  });
+}
+
+FloatImage decode(Lightmap lightmap, const Vec3& normal, Green green, DecodeVariant variant) {
+  const FloatImage& size = sized_like(lightmap);
+  const Vec3 unit = turned(normal.normalized(), green, lightmap.metadata.green);
+  return decode_all(lightmap, variant, FloatImage(size.width(), size.height(), 3),
+                    [&](int, int) { return unit; });
+}
+
+}  // namespace rnmbake

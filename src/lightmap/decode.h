@@ -1,0 +1,60 @@
+// lightmap/decode.h - what a shader sees: lightmap and normal map together, as the field defines it, on the
+// CPU.
+#pragma once
+
+#include "base/math.h"
+#include "image/float_image.h"
+#include "image/layered_exr.h"
+#include "lightmap/metadata.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace rnmbake {
+
+/// A lightmap file taken apart. What the file does not hold is empty.
+struct Lightmap {
+  LightmapMetadata metadata;
+  FloatImage flat;
+  std::array<FloatImage, 3> rnm;
+  FloatImage coverage;
+};
+
+[[nodiscard]] Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata);
+
+enum class DecodeVariant {
+  squared,  // sum w LM / sum w with w = sat(dot)^2: Source, corrected
+  linear,   // sum sat(dot) LM: Bakery
+  vrad,     // as squared, on maps scaled so that a flat normal returns the flat bake
+  single,   // the flat bake, whatever the normal
+};
+
+[[nodiscard]] const char* name_of(DecodeVariant variant);
+
+/// Tangent-space normals: RGB of unit vectors, `green` says where y points.
+struct NormalMap {
+  FloatImage normals;
+  Green green = Green::y_up;
+};
+
+/// Turns a normal map's picture into unit vectors: 2t - 1, renormalised. A picture with a value below 0 or
+/// with channels X,Y,Z is taken to hold vectors already; one with two channels gets z = sqrt(1 - x^2 - y^2);
+/// a vector of length 0 becomes (0, 0, 1). Throws Error(invalid_input), naming `file`, where there is no such
+/// layer.
+[[nodiscard]] FloatImage normals_of(const LayeredImage& picture, const std::string& file);
+
+/// Why the numbers of this file do not mean what the variant takes them for; nothing where they do.
+[[nodiscard]] std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata,
+                                                         DecodeVariant variant);
+
+/// The lit picture, RGB in E/pi, of the normal map's size. Lightmap and normal map share one UV layout; the
+/// lightmap is looked up bilinearly, without its uncovered texels where a covered one is near. Normals are
+/// turned to the lightmap's green. Maps that the header calls normalized are never scaled again. Throws
+/// Error(unsupported), naming it, where a layer that the variant needs is missing.
+[[nodiscard]] FloatImage decode(Lightmap lightmap, const NormalMap& normal_map, DecodeVariant variant);
+
+/// The same with one normal everywhere; of the lightmap's size.
+[[nodiscard]] FloatImage decode(Lightmap lightmap, const Vec3& normal, Green green, DecodeVariant variant);
+
+}  // namespace rnmbake
