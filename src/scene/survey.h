@@ -2,14 +2,14 @@
 // Written by blender_scripts/survey_entry.py as survey.json + survey.bin (docs/survey-format.md).
 #pragma once
 
+#include "base/math.h"
+#include "scene/mesh.h"
+
 #include <array>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
-
-#include "base/math.h"
-#include "scene/mesh.h"
 
 namespace rnmbake {
 
@@ -17,26 +17,29 @@ struct MaterialInfo {
   std::string name;
   bool normal_mapped = false;
   bool emissive = false;
-  std::vector<std::string> outside_model; // "glossy", "transmission", "volume", ...: not plain diffuse + emission
+  std::vector<std::string> outside_model;  // "glossy", "transmission", ...: not plain diffuse + emission
 };
 
 struct LightInfo {
-  std::string name, type; // POINT, SUN, SPOT, AREA
-  double energy = 0;      // W, or strength for a sun
+  std::string name, type;  // POINT, SUN, SPOT, AREA
+  double energy = 0;       // W, or strength for a sun
   std::array<double, 3> color{1, 1, 1};
-  std::vector<std::string> outside_model; // "node tree", "light linking", ...
+  std::string shape;                       // of an area light: SQUARE, RECTANGLE, DISK, ELLIPSE
+  std::map<std::string, double> sizes;     // Blender's names: shadow_soft_size, angle, spot_size, size, ...
+  Mat44 to_world;                          // row-vector convention
+  std::vector<std::string> outside_model;  // "node tree", "light linking", ...
 };
 
 /// One thing with faces. Instances appear once each, with the mesh they share.
 struct SceneObject {
-  std::string key;       // unique in the scene: the object's name, or instancer/name#n for instances
-  std::string name;      // the object's name in Blender
-  std::string instancer; // "" unless it comes from a collection or geometry-nodes instance
-  std::string type;      // MESH, CURVE, FONT, SURFACE, META
-  int mesh = -1;         // index into Survey::meshes
-  Mat44 to_world;        // row-vector convention
-  std::vector<std::string> slots; // material name of each slot, "" for an empty one
-  std::string light_group; // names the light-linking collections; "" when there are none
+  std::string key;        // unique in the scene: the object's name, or instancer/name#n for instances
+  std::string name;       // the object's name in Blender
+  std::string instancer;  // "" unless it comes from a collection or geometry-nodes instance
+  std::string type;       // MESH, CURVE, FONT, SURFACE, META
+  int mesh = -1;          // index into Survey::meshes
+  Mat44 to_world;         // row-vector convention
+  std::vector<std::string> slots;  // material name of each slot, "" for an empty one
+  std::string light_group;         // names the light-linking collections; "" when there are none
   bool visible_to_camera = true;
 };
 
@@ -47,13 +50,19 @@ struct Survey {
   std::vector<SceneObject> objects;
   std::map<std::string, MaterialInfo> materials;
   std::vector<LightInfo> lights;
-  std::string world;                 // "none", "constant", "picture", "nodes"
+  std::string world;  // "none", "constant", "picture", "nodes"
   double world_strength = 0;
-  std::vector<std::string> warnings; // things that Blender said while it evaluated the scene
+  std::array<double, 3> world_color{1, 1, 1};
+  std::vector<std::string> warnings;  // things that Blender said while it evaluated the scene
+
+  [[nodiscard]] const Mesh& mesh_of(const SceneObject& object) const {
+    return meshes[static_cast<std::size_t>(object.mesh)];
+  }
 };
 
-/// Reads and checks sizes, indices and finiteness. Throws Error(invalid_input) naming the object and what is wrong;
-/// an object whose mesh has a NaN position is named with its first bad vertex.
+/// Reads and checks sizes, indices and finiteness. Throws Error(io) where a file cannot be read, and
+/// Error(invalid_input) naming the object and what is wrong; an object whose mesh has a NaN or infinite
+/// position, UV or matrix is named with its first bad element.
 [[nodiscard]] Survey read_survey(const std::filesystem::path& json_file);
 
 }  // namespace rnmbake

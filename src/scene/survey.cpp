@@ -1,0 +1,151 @@
+#include "scene/survey.h"
+
+#include "base/error.h"
+#include "scene/survey_meshes.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr int survey_format = 1;
+
+std::vector<char> read_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    fail(ExitCode::io, "{}: cannot be read; the survey of the scene is incomplete", file.string());
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Blender writes rows of a matrix that multiplies columns; Imath multiplies rows.
+Mat44 read_matrix(const json& values, const std::string& owner) {
+  if (values.size() != 16) {
+    fail(ExitCode::invalid_input, "{}: its matrix has {} numbers, not 16", owner, values.size());
+  }
+  Mat44 matrix;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const json& value = values.at(4 * row + column);
+      // Python writes NaN and Infinity, which are no JSON numbers and make the parser refuse the file.
+      matrix[column][row] = value.get<double>();
+    }
+  }
+  return matrix;
+}
+
+SceneObject read_object(const json& entry, std::size_t meshes) {
+  SceneObject object;
+  object.key = entry.at("key").get<std::string>();
+  object.name = entry.at("name").get<std::string>();
+  object.instancer = entry.at("instancer").get<std::string>();
+  object.type = entry.at("type").get<std::string>();
+  object.mesh = entry.at("mesh").get<int>();
+  object.to_world = read_matrix(entry.at("matrix"), "object '" + object.key + "'");
+  object.slots = entry.at("slots").get<std::vector<std::string>>();
+  object.light_group = entry.at("light_group").get<std::string>();
+  object.visible_to_camera = entry.at("visible_to_camera").get<bool>();
+  if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= meshes) {
+    fail(ExitCode::invalid_input, "object '{}': mesh {} of {} does not exist", object.key, object.mesh,
+         meshes);
+  }
+  return object;
+}
+
+MaterialInfo read_material(const std::string& name, const json& entry) {
+  return {name, entry.at("normal_mapped").get<bool>(), entry.at("emissive").get<bool>(),
+          entry.at("outside_model").get<std::vector<std::string>>()};
+}
+
+LightInfo read_light(const json& entry) {
+  LightInfo light;
+  light.name = entry.at("name").get<std::string>();
+  light.type = entry.at("type").get<std::string>();
+  light.energy = entry.at("energy").get<double>();
+  light.color = entry.at("color").get<std::array<double, 3>>();
+  light.shape = entry.at("shape").get<std::string>();
+  light.sizes = entry.at("sizes").get<std::map<std::string, double>>();
+  light.to_world = read_matrix(entry.at("matrix"), "light '" + light.name + "'");
+  light.outside_model = entry.at("outside_model").get<std::vector<std::string>>();
+  return light;
+}
+
+void read_world(const json& entry, Survey& survey) {
+  survey.world = entry.at("kind").get<std::string>();
+  survey.world_strength = entry.at("strength").get<double>();
+  survey.world_color = entry.at("color").get<std::array<double, 3>>();
+}
+
+void read_objects(const json& content, Survey& survey) {
+  std::set<std::string> keys;
+  for (const json& entry : content.at("objects")) {
+    survey.objects.push_back(read_object(entry, content.at("meshes").size()));
+    if (!keys.insert(survey.objects.back().key).second) {
+      fail(ExitCode::invalid_input, "object '{}': listed twice in the survey", survey.objects.back().key);
+    }
+  }
+}
+
+void read_meshes(const json& content, const std::vector<char>& data, Survey& survey) {
+  for (const json& entry : content.at("meshes")) {
+    const int index = static_cast<int>(survey.meshes.size());
+    const auto owner = [&]() -> std::string {  // users know their objects, not the meshes
+      for (const SceneObject& object : survey.objects) {
+        if (object.mesh == index) {
+          return "object '" + object.key + "': ";
+        }
+      }
+      return "mesh '" + entry.at("name").get<std::string>() + "': ";
+    };
+    survey.meshes.push_back(read_mesh(entry, data, owner));
+  }
+}
+
+Survey read_content(const json& content, const fs::path& folder) {
+  if (content.at("format").get<int>() != survey_format || content.at("byte_order") != "little") {
+    fail(ExitCode::unsupported, "{}: written by scripts of another rnmbake (format {}, {} endian)",
+         folder.string(), content.at("format").dump(), content.at("byte_order").dump());
+  }
+  const std::vector<char> data = read_bytes(folder / content.at("data").get<std::string>());
+  if (data.size() != content.at("data_bytes").get<std::size_t>()) {
+    fail(ExitCode::invalid_input, "{}: survey.bin has {} bytes, {} were written; is the disk full?",
+         folder.string(), data.size(), content.at("data_bytes").get<std::size_t>());
+  }
+  Survey survey;
+  survey.scene_file = content.at("scene_file").get<std::string>();
+  survey.scene_name = content.at("scene_name").get<std::string>();
+  survey.blender_version = content.at("blender_version").get<std::string>();
+  read_objects(content, survey);
+  read_meshes(content, data, survey);
+  for (const auto& [name, entry] : content.at("materials").items()) {
+    survey.materials[name] = read_material(name, entry);
+  }
+  for (const json& entry : content.at("lights")) {
+    survey.lights.push_back(read_light(entry));
+  }
+  read_world(content.at("world"), survey);
+  survey.warnings = content.at("warnings").get<std::vector<std::string>>();
+  return survey;
+}
+
+}  // namespace
+
+Survey read_survey(const fs::path& json_file) {
+  const std::vector<char> text = read_bytes(json_file);
+  try {
+    return read_content(json::parse(text), json_file.parent_path());
+  } catch (const json::exception& error) {
+    fail(ExitCode::invalid_input, "{}: not a survey that this rnmbake can read: {}", json_file.string(),
+         error.what());
+  }
+}
+
+}  // namespace rnmbake
