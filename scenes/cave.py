@@ -36,19 +36,21 @@ def _opening(unit):
 
 
 def _mesh(detail):
+    """The mesh and, for each vertex, the direction from the middle that it lies in."""
     mesh = bpy.data.meshes.new("cave")
     solid = bmesh.new()
     bmesh.ops.create_icosphere(solid, subdivisions=detail, radius=1.0)
     gone = [v for v in solid.verts if _opening(v.co.normalized())]
     bmesh.ops.delete(solid, geom=gone, context="VERTS")
-    for vertex in solid.verts:
-        vertex.co = _wall(vertex.co.normalized())
+    units = [vertex.co.normalized() for vertex in solid.verts]
+    for vertex, unit in zip(solid.verts, units):
+        vertex.co = _wall(unit)
     bmesh.ops.reverse_faces(solid, faces=solid.faces)  # the rock is outside
     for face in solid.faces:
         face.smooth = True
     solid.to_mesh(mesh)
     solid.free()
-    return mesh
+    return mesh, units
 
 
 def _detail_uv(mesh):
@@ -63,16 +65,39 @@ def _detail_uv(mesh):
     kit.add_uv(mesh, kit.DETAIL_UV, corners)
 
 
-def _lightmap_uv(thing):
-    mesh = thing.data
-    mesh.uv_layers.active = mesh.uv_layers.new(name=kit.LIGHTMAP_UV)
-    bpy.context.view_layer.objects.active = thing
-    thing.select_set(True)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.uv.smart_project(angle_limit=math.radians(66), island_margin=0.004)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    kit.activate_uv(thing.data)
+def _lightmap_uv(mesh, units):
+    """Six charts, the sides of a cube about the middle: each ray from there meets the wall once, so none overlap.
+
+    `units`: for each vertex, the direction it was pushed out along.
+    """
+    sides = {}
+    for face in mesh.polygons:
+        middle = sum((units[v] for v in face.vertices), Vector())
+        axis = max(range(3), key=lambda i: abs(middle[i]))
+        sides.setdefault((axis, middle[axis] > 0), []).append(face)
+
+    charts = []
+    for (axis, positive), faces in sides.items():
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+
+        def flat(unit):  # angles instead of tangents keep the texels' sizes closer to each other
+            side = math.atan2(unit[u], abs(unit[axis]))
+            return (-side if positive else side, math.atan2(unit[v], abs(unit[axis])))
+
+        corners = [[flat(units[i]) for i in face.vertices] for face in faces]
+        low = [min(uv[k] for face in corners for uv in face) for k in (0, 1)]
+        high = [max(uv[k] for face in corners for uv in face) for k in (0, 1)]
+        charts.append(((HALF[u], HALF[v]), faces, corners, low, high))
+
+    layer = [None] * len(mesh.loops)
+    places = kit.pack([size for size, *_ in charts], 0.006)
+    for (_, faces, corners, low, high), (x, y, *extent) in zip(charts, places):
+        for face, uvs in zip(faces, corners):
+            for loop, uv in zip(face.loop_indices, uvs):
+                share = [(uv[k] - low[k]) / (high[k] - low[k]) * extent[k] for k in (0, 1)]
+                layer[loop] = (x + share[0], y + share[1])
+    kit.add_uv(mesh, kit.LIGHTMAP_UV, layer)
+    kit.activate_uv(mesh)
 
 
 def _sandstone(albedo):
@@ -101,9 +126,10 @@ def _sandstone(albedo):
 
 def build(detail=6, albedo=0.7):
     kit.start(exposure=0.35)
-    mesh = _mesh(detail)
+    mesh, units = _mesh(detail)
     _detail_uv(mesh)
-    _lightmap_uv(kit.add_object("cave", mesh, [_sandstone(albedo)]))
+    _lightmap_uv(mesh, units)
+    kit.add_object("cave", mesh, [_sandstone(albedo)])
     kit.sun((-0.05, -0.06, 1.0), 20.0, (1.0, 0.87, 0.68), size=0.5)
     kit.world((0.4, 0.62, 1.0), 6.0)
     kit.camera((-0.7, -5.0, -0.9), (0.75, 2.0, -0.1), lens=22)

@@ -104,7 +104,7 @@ def _box(name, material, low, high, turn=0.0, tile=1.0):
 
 
 def _lights():
-    kit.sun((0.62, -0.42, 0.62), 7.5, (1.0, 0.85, 0.64), size=0.5)
+    kit.sun((0.44, -0.56, 0.7), 7.5, (1.0, 0.85, 0.64), size=0.5)
     kit.world((0.32, 0.5, 0.9), 0.55)
     kit.area("lamp_cyan", (-0.2, DEPTH - 0.12, 0.03), (0, 0.12, 1), (3.6, 0.1), 60, (0.1, 0.75, 1.0))
     kit.area("lamp_magenta", (WIDTH / 2 - 0.12, 3.3, 0.03), (0.12, 0, 1), (0.1, 2.6), 70, (1.0, 0.12, 0.55))
@@ -131,6 +131,6 @@ def build():
     _box("crate_large", crate, (-2.3, 2.0, 0), (-1.4, 2.9, 0.9), turn=24)
     _box("crate_small", crate, (-2.1, 2.2, 0.9), (-1.58, 2.72, 1.42), turn=-12, tile=0.6)
     _ball("ball", (1.75, 2.75, 0.5), 0.5, jade, (6, 3))
-    _box("bench", stone, (1.55, 0.95, 0), (2.75, 1.35, 0.34), turn=-14)
+    _box("bench", stone, (0.75, 1.3, 0), (1.75, 1.65, 0.32), turn=-20)
     _lights()
     kit.camera((0.15, -3.1, 1.75), (0, 3.2, 1.25), lens=32)

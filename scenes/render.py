@@ -15,6 +15,7 @@ scene = bpy.context.scene
 scene.render.resolution_x, scene.render.resolution_y = width, height
 scene.render.resolution_percentage = 100
 scene.cycles.samples = samples
+scene.cycles.sample_clamp_indirect = 8.0  # for the eye only: a bake must not clamp
 scene.render.image_settings.file_format = "PNG"
 scene.render.image_settings.color_mode = "RGB"
 scene.render.image_settings.compression = 100
