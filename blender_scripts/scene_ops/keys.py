@@ -1,4 +1,18 @@
-"""Names for everything that a render shows: the same in every launch, since the order of a depsgraph is."""
+"""What a render shows, and names for it: the same in every launch, since the order of a depsgraph is."""
+import bpy
+
+NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
+
+
+def shown_surfaces(depsgraph):
+    """Every instance with faces that a render depsgraph shows, as Cycles picks them.
+
+    Curves, texts and metaballs appear twice: as themselves, and as an instance that holds their mesh.
+    An instance is valid until the next one is asked for.
+    """
+    for instance in depsgraph.object_instances:
+        if instance.show_self and isinstance(instance.object.data, bpy.types.Mesh):
+            yield instance
 
 
 class Keys:
@@ -20,4 +34,9 @@ class Keys:
 
 
 def instancer_of(instance):
-    return instance.parent.original.name_full if instance.is_instance and instance.parent else ""
+    """The object that places this one; "" for one that stands for itself, or is the mesh of a curve or text."""
+    if not instance.is_instance or instance.parent is None:
+        return ""
+    original = instance.object.original
+    own_mesh = instance.parent.original == original and instance.persistent_id[1] == NO_ID
+    return "" if own_mesh and original.type != "MESH" else instance.parent.original.name_full

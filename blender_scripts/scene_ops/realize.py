@@ -2,8 +2,8 @@
 import bpy
 
 from core.task import Refusal
-from scene_ops.keys import Keys, instancer_of
-from scene_ops.survey import SURFACES, with_render_depsgraph
+from scene_ops.keys import Keys, instancer_of, shown_surfaces
+from scene_ops.survey import with_render_depsgraph
 
 
 def targets_as_objects(targets):
@@ -43,26 +43,24 @@ def _collect(depsgraph, keys, every, found):
     """First find which originals have to go, then copy everything that goes with them."""
     names, replaced = Keys(), set()
     surfaces = []
-    for instance in depsgraph.object_instances:
-        if instance.show_self and instance.object.type in SURFACES:
-            key = names.new(instance)
-            owner = instancer_of(instance) or instance.object.original.name_full
-            surfaces.append((key, owner))
-            if every or key in keys:
-                replaced.add(owner)
+    for instance in shown_surfaces(depsgraph):
+        key = names.new(instance)
+        owner = instancer_of(instance) or instance.object.original.name_full
+        surfaces.append((key, owner))
+        if every or key in keys:
+            replaced.add(owner)
     going = {key for key, owner in surfaces if owner in replaced}
-    found["replaced"], found["copies"], meshes = replaced, {}, {}
+    found["replaced"], found["copies"] = replaced, {}
     names = Keys()
-    for instance in depsgraph.object_instances:
-        if instance.show_self and instance.object.type in SURFACES:
-            key = names.new(instance)
-            if key in going:
-                found["copies"][key] = _copy(instance, depsgraph, meshes)
+    for instance in shown_surfaces(depsgraph):
+        key = names.new(instance)
+        if key in going:
+            found["copies"][key] = _copy(instance)
 
 
-def _copy(instance, depsgraph, meshes):
+def _copy(instance):
     ob = instance.object
-    mesh = bpy.data.meshes.new_from_object(ob, preserve_all_data_layers=True, depsgraph=depsgraph)
+    mesh = bpy.data.meshes.new_from_object(ob)  # as evaluated: the render depsgraph keeps all UV layers
     materials = [slot.material.original if slot.material else None for slot in ob.material_slots]
     return {"mesh": mesh, "matrix": instance.matrix_world.copy(), "materials": materials,
             "visible": {name: getattr(ob, name) for name in dir(ob) if name.startswith("visible_")

@@ -5,16 +5,17 @@ dependency graph that Blender builds for a render engine. So the survey is a ren
 in which every object is read and not a pixel drawn.
 """
 import json
+import math
 import sys
 
 import bpy
 
+from core.task import Refusal
 from scene_ops.describe import describe_light, describe_material, describe_world, light_group
-from scene_ops.keys import Keys, instancer_of
+from scene_ops.keys import Keys, instancer_of, shown_surfaces
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
-SURFACES = {"MESH", "CURVE", "FONT", "SURFACE", "META"}
 
 
 class SurveyEngine(bpy.types.RenderEngine):
@@ -39,7 +40,8 @@ class SurveyEngine(bpy.types.RenderEngine):
 def with_render_depsgraph(visit):
     """Call visit(depsgraph) with the graph of a final render of the current view layer."""
     SurveyEngine.visit, SurveyEngine.visited, SurveyEngine.error = staticmethod(visit), False, None
-    bpy.utils.register_class(SurveyEngine)
+    if not SurveyEngine.is_registered:
+        bpy.utils.register_class(SurveyEngine)
     prepare_render(bpy.context.scene)
     bpy.ops.render.render()
     if SurveyEngine.error:
@@ -79,29 +81,27 @@ class Surveyor:
     def visit(self, depsgraph):
         override = depsgraph.view_layer_eval.material_override
         for instance in depsgraph.object_instances:
-            if not instance.show_self:
-                continue
-            ob = instance.object
-            if ob.type == "LIGHT":
-                self.lights.append(describe_light(ob, instance.matrix_world))
-            elif ob.type in SURFACES:
-                self.add_surface(instance, ob, override)
+            if instance.show_self and instance.object.type == "LIGHT":
+                self.lights.append(describe_light(instance.object, instance.matrix_world))
+        for instance in shown_surfaces(depsgraph):
+            self.add_surface(instance, instance.object, override)
         self.meshes.close()
 
     def add_surface(self, instance, ob, override):
-        mesh = self.meshes.add(ob)
-        if mesh is None:
-            return
         original = ob.original
         slots = [material_name(override or slot.material) for slot in ob.material_slots]
         self.material_names.update(name for name in slots if name)
+        matrix = [value for row in instance.matrix_world for value in row]
+        if not all(map(math.isfinite, matrix)):
+            raise Refusal(f"object {original.name!r}: its place, rotation or scale is not a number; reset its "
+                          "transform in Blender", object_name=original.name)
         self.objects.append({
             "key": self._keys.new(instance),
             "name": original.name,
             "instancer": instancer_of(instance),
             "type": original.type,
-            "mesh": mesh,
-            "matrix": [value for row in instance.matrix_world for value in row],
+            "mesh": self.meshes.add(ob.data),
+            "matrix": matrix,
             "slots": slots,
             "light_group": light_group(original),
             "visible_to_camera": bool(ob.visible_camera),

@@ -1,8 +1,6 @@
 """Evaluated meshes as raw arrays in one file; all loops over elements are Blender's own (foreach_get)."""
 from array import array
 
-import bpy
-
 WIDTH = 4  # bytes of a number: float32 or int32
 
 
@@ -18,34 +16,23 @@ class MeshFile:
     def close(self):
         self._stream.close()
 
-    def add(self, ob):
-        """The entry that holds the faces of an evaluated object; None where it has none to speak of.
+    def add(self, mesh):
+        """The number of the entry that holds an evaluated mesh, which is also the one that Cycles reads.
 
         Objects that share evaluated data share the entry; a modifier gives an object data of its own.
         """
-        key = (ob.data.as_pointer(), None if isinstance(ob.data, bpy.types.Mesh) else ob.original.as_pointer())
+        key = mesh.as_pointer()
         if key not in self._index:
-            self._index[key] = self._add_evaluated(ob)
+            self._index[key] = len(self.entries)
+            self._append(mesh)
         return self._index[key]
 
-    def _add_evaluated(self, ob):
-        if isinstance(ob.data, bpy.types.Mesh):  # what Cycles itself reads
-            return self._append(ob.data)
-        mesh = ob.to_mesh()
-        if mesh is None:
-            return None
-        try:
-            # A curve that only guides others, or a metaball that its family's first one draws.
-            return self._append(mesh, ob.data.name) if len(mesh.polygons) else None
-        finally:
-            ob.to_mesh_clear()
-
-    def _append(self, mesh, name=None):
+    def _append(self, mesh):
         mesh.calc_loop_triangles()
         loops, polygons, triangles = len(mesh.loops), len(mesh.polygons), len(mesh.loop_triangles)
         uv_layers = list(mesh.uv_layers)
         self.entries.append({
-            "name": name or mesh.name,
+            "name": mesh.name,
             "vertices": len(mesh.vertices), "loops": loops, "polygons": polygons, "triangles": triangles,
             "positions": self._write(mesh.vertices, "co", "f", 3),
             "loop_vertex": self._write(mesh.loops, "vertex_index", "i"),
@@ -59,7 +46,6 @@ class MeshFile:
             "active_uv": mesh.uv_layers.active_index if uv_layers else -1,
             "render_uv": next((i for i, layer in enumerate(uv_layers) if layer.active_render), -1),
         })
-        return len(self.entries) - 1
 
     def _write(self, collection, attribute, kind, components=1):
         """Append one attribute of all elements; returns its offset in bytes."""
