@@ -1,11 +1,11 @@
 // bake/clip.h - cuts triangles by linear functions, carrying what their corners carry.
 #pragma once
 
+#include "base/math.h"
+
 #include <array>
 #include <cstddef>
 #include <vector>
-
-#include "base/math.h"
 
 namespace rnmbake {
 
@@ -13,9 +13,14 @@ namespace rnmbake {
 using Weights = Vec3;
 using WeightPolygon = std::vector<Weights>;
 
-[[nodiscard]] inline WeightPolygon whole_triangle() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+[[nodiscard]] inline WeightPolygon whole_triangle() {
+  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+}
 
 /// The part of `polygon` where the linear function with these corner values is >= 0.
 [[nodiscard]] WeightPolygon clip(const WeightPolygon& polygon, const std::array<float, 3>& corner_values);
+
+/// The polygon as triangles (three weights each), every one divided into parts x parts smaller ones.
+[[nodiscard]] std::vector<Weights> triangulate(const WeightPolygon& polygon, int parts = 1);
 
 }  // namespace rnmbake

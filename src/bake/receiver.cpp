@@ -1,38 +1,45 @@
 #include "bake/receiver.h"
 
+#include "bake/clip.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "bake/clip.h"
-
 namespace rnmbake {
 namespace {
 
-const float lowest_sine = std::sin(float(pi) / 180.0F);       // normals of a receiver: at most 89 degrees off
-const float moment_sine = std::sin(0.1F * float(pi) / 180.0F); // tangents of the face: 89.9 degrees off
+using Horizon = ObjectSettings::Horizon;
+
+const float lowest_sine = std::sin(float(pi) / 180.0F);  // normals of a receiver: at most 89 degrees off
+const float moment_sine = std::sin(0.1F * float(pi) / 180.0F);  // tangents of the face: 89.9 degrees off
 
 using CornerNormals = std::array<Vec3, 3>;
 
-/// Appends a polygon as a fan. Positions, UVs and normals interpolate as the triangle's do; interpolated
-/// normals stay unnormalised until `finish` makes them legal for the receiver.
+/// Blender's custom normals are unit vectors, so a new corner within a triangle bends the interpolation.
+/// Parts of no more than 10 degrees keep that below a tenth of a degree.
+int parts_for(const CornerNormals& normals) {
+  const float closest =
+      std::min({normals[0].dot(normals[1]), normals[1].dot(normals[2]), normals[2].dot(normals[0])});
+  const double degrees = std::acos(std::clamp(double(closest), -1.0, 1.0)) * 180 / pi;
+  return std::clamp(static_cast<int>(std::ceil(degrees / 10)), 1, 16);
+}
+
+/// Appends triangles whose positions, UVs and normals interpolate as those of `triangle` do; `finish` makes
+/// the interpolated normal legal for a receiver.
 template <typename Finish>
-void append(std::vector<ReceiverCorner>& out, const WeightPolygon& polygon, const SurfaceTriangle& triangle,
-            const CornerNormals& normals, Finish finish) {
-  const auto corner = [&](const Weights& w) {
-    ReceiverCorner c;
-    const auto& k = triangle.corners;
-    c.position = k[0].position * w.x + k[1].position * w.y + k[2].position * w.z;
-    c.uv = k[0].uv * w.x + k[1].uv * w.y + k[2].uv * w.z;
-    c.normal = finish(normals[0] * w.x + normals[1] * w.y + normals[2] * w.z);
-    return c;
-  };
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    out.insert(out.end(), {corner(polygon[0]), corner(polygon[i - 1]), corner(polygon[i])});
+void append(std::vector<ReceiverCorner>& out, const std::vector<Weights>& weights,
+            const SurfaceTriangle& triangle, const CornerNormals& normals, Finish finish) {
+  const auto& k = triangle.corners;
+  for (const Weights& w : weights) {
+    out.push_back({k[0].position * w.x + k[1].position * w.y + k[2].position * w.z,
+                   finish(normals[0] * w.x + normals[1] * w.y + normals[2] * w.z),
+                   k[0].uv * w.x + k[1].uv * w.y + k[2].uv * w.z});
   }
 }
 
-/// The part of the triangle inside the unit square of the lightmap: the rest would land on a neighbour's tile.
+/// The part of the triangle inside the unit square of the lightmap: the rest would land on a neighbour's
+/// tile.
 WeightPolygon inside_map(const SurfaceTriangle& triangle) {
   const auto& k = triangle.corners;
   WeightPolygon polygon = whole_triangle();
@@ -48,7 +55,7 @@ WeightPolygon inside_map(const SurfaceTriangle& triangle) {
 /// Cuts one target into sheets, triangle by triangle.
 class SheetMaker {
  public:
-  SheetMaker(const BasisSet& bases, Horizon horizon)
+  SheetMaker(const std::vector<BasisDirection>& bases, Horizon horizon)
       : bases_(bases), horizon_(horizon), above_(bases.size()), below_(bases.size()), moments_(5) {}
 
   void add(const SurfaceTriangle& triangle) {
@@ -94,10 +101,11 @@ class SheetMaker {
     const auto legal = [&](const Vec3& n) { return raise_above(n, triangle.normal, lowest_sine); };
     if (under == 0 || horizon_ == Horizon::clamp) {
       for (Vec3& n : up) n = legal(n);
-      append(above_[b], polygon, triangle, up, [](const Vec3& n) { return n.normalized(); });
+      append(above_[b], triangulate(polygon), triangle, up, [](const Vec3& n) { return n.normalized(); });
     } else {
-      append(above_[b], clip(polygon, height), triangle, up, legal);
-      append(below_[b], clip(polygon, depth), triangle, down, legal);
+      const int parts = parts_for(up);
+      append(above_[b], triangulate(clip(polygon, height), parts), triangle, up, legal);
+      append(below_[b], triangulate(clip(polygon, depth), parts), triangle, down, legal);
     }
     return under > 0;
   }
@@ -107,11 +115,11 @@ class SheetMaker {
     const std::array<Vec3, 5> directions{axes.t1, -axes.t1, axes.t2, -axes.t2, triangle.normal};
     for (std::size_t m = 0; m < directions.size(); ++m) {
       const Vec3 n = raise_above(directions[m], triangle.normal, moment_sine);
-      append(moments_[m], polygon, triangle, {n, n, n}, [&n](const Vec3&) { return n; });
+      append(moments_[m], triangulate(polygon), triangle, {n, n, n}, [&n](const Vec3&) { return n; });
     }
   }
 
-  const BasisSet& bases_;
+  const std::vector<BasisDirection>& bases_;
   Horizon horizon_;
   std::vector<std::vector<ReceiverCorner>> above_, below_, moments_;
   HorizonCounts counts_;
@@ -138,7 +146,8 @@ Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {
   return along.normalized() * std::sqrt(1 - sine * sine) + face_normal * sine;
 }
 
-Sheets make_sheets(const Surface& surface, const BasisSet& bases, Horizon horizon) {
+Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
+                   ObjectSettings::Horizon horizon) {
   SheetMaker maker(bases, horizon);
   for (const SurfaceTriangle& triangle : surface.triangles) maker.add(triangle);
   return maker.finish();

@@ -1,50 +1,49 @@
-// bake/receiver.h - the receiver recipe: which corner normals make Cycles return E(b)/pi for a basis vector b.
+// bake/receiver.h - the receiver recipe: which corner normals make Cycles return E(b)/pi for a basis vector
+// b.
 //
 // A white Lambertian receiver whose corner normal is b = b.x T + b.y B + b.z N returns the clipped integral
 // of L max(0, D.b) over the face's hemisphere, exactly, as long as b lies above the face. Where it does not
 // (smooth normals far off their face), Cycles would flip the receiver. There the identity
 //     max(0, D.b) = max(0, -D.b) + D.b,   so   E(b) = E(-b) + v.b,   v = integral of L D over the hemisphere
-// holds, and -b is legal; v comes from five more normals. A triangle that b's horizon crosses is cut there.
+// holds, and -b is legal; v comes from five more normals. A triangle that b's horizon crosses is cut there
+// (Horizon::identity: exact, up to six more bakes of such faces). Horizon::clamp bends such normals to 89
+// degrees off the face instead: cheap, and wrong there.
 #pragma once
+
+#include "bake/surface.h"
+#include "base/math.h"
+#include "basis/basis_set.h"
+#include "config/bake_settings.h"
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "bake/surface.h"
-#include "base/math.h"
-#include "basis/basis_set.h"
-
 namespace rnmbake {
-
-enum class Horizon {
-  identity, // exact, costs up to six more bakes of the faces concerned
-  clamp,    // bends such normals to 89 degrees off the face: cheap, wrong there
-};
 
 /// One corner of a receiver triangle.
 struct ReceiverCorner {
-  Vec3 position, normal; // world space
-  Vec2 uv;               // lightmap UV, v up, inside [0,1]
+  Vec3 position, normal;  // world space
+  Vec2 uv;                // lightmap UV, v up, inside [0,1]
 };
 
 /// One picture to bake of a target.
 struct Sheet {
   enum class Role { basis, below, moment };
   Role role = Role::basis;
-  std::size_t basis = 0; // index into the basis set; for a moment: 0..4 = t1, -t1, t2, -t2, face normal
-  std::vector<ReceiverCorner> corners; // three for each triangle
+  std::size_t basis = 0;  // index into the list of bases; for a moment: 0..4 = t1, -t1, t2, -t2, face normal
+  std::vector<ReceiverCorner> corners;  // three for each triangle
 };
 
 struct HorizonCounts {
-  std::size_t corners = 0;         // triangle corners x bases
-  std::size_t corners_below = 0;   // of these: basis normal under the face
+  std::size_t corners = 0;        // triangle corners x bases
+  std::size_t corners_below = 0;  // of these: basis normal under the face
   std::size_t triangles = 0;
-  std::size_t triangles_below = 0; // with such a corner for any basis
+  std::size_t triangles_below = 0;  // with such a corner for any basis
 };
 
 struct Sheets {
-  std::vector<Sheet> sheets; // one with role basis for each basis, in order; then below and moment sheets
+  std::vector<Sheet> sheets;  // one with role basis for each basis, in order; then below and moment sheets
   HorizonCounts counts;
 };
 
@@ -61,6 +60,7 @@ struct FaceAxes {
 /// interpolation between corners stays in it.
 [[nodiscard]] Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine);
 
-[[nodiscard]] Sheets make_sheets(const Surface& surface, const BasisSet& bases, Horizon horizon);
+[[nodiscard]] Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
+                                 ObjectSettings::Horizon horizon);
 
 }  // namespace rnmbake

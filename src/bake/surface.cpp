@@ -6,7 +6,9 @@
 namespace rnmbake {
 namespace {
 
-Vec3d to_world_point(const Vec3& p, const Mat44& matrix) { return Vec3d(p) * matrix; }
+Vec3d to_world_point(const Vec3& p, const Mat44& matrix) {
+  return Vec3d(p) * matrix;
+}
 
 double diagonal_of(const Mesh& mesh, const Mat44& matrix) {
   if (mesh.positions.empty()) return 0;
@@ -43,7 +45,7 @@ Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset,
       triangle.corners[k] = {Vec3(p[k]), frames.corners[corner], uv[mesh.triangle_loops[corner]]};
     }
     Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    if (mirrored) normal = -normal; // a mirrored object keeps its outside, so its winding turns round
+    if (mirrored) normal = -normal;  // a mirrored object keeps its outside, so its winding turns round
     const double length = normal.length();
     if (!(length > 0)) {
       ++surface.degenerate;

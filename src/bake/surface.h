@@ -1,31 +1,31 @@
 // bake/surface.h - the triangles of one target, in world space, ready to become receivers.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "base/math.h"
 #include "scene/mesh.h"
 #include "scene/tangents.h"
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace rnmbake {
 
 struct SurfaceCorner {
-  Vec3 position; // world space, lifted off the surface along the face normal
-  Frame frame;   // world space
-  Vec2 uv;       // lightmap UV, v up
+  Vec3 position;  // world space, lifted off the surface along the face normal
+  Frame frame;    // world space
+  Vec2 uv;        // lightmap UV, v up
 };
 
 /// One triangle; its corners run anti-clockwise seen from where `normal` points.
 struct SurfaceTriangle {
   std::array<SurfaceCorner, 3> corners;
-  Vec3 normal; // geometric, world space, unit; on the side that Cycles calls the front
+  Vec3 normal;  // geometric, world space, unit; on the side that Cycles calls the front
 };
 
 struct Surface {
   std::vector<SurfaceTriangle> triangles;
-  std::size_t degenerate = 0; // triangles left out because they have no area in the world
+  std::size_t degenerate = 0;  // triangles left out because they have no area in the world
 };
 
 /// How far a receiver stands off its surface: enough that rays do not start below it at any distance from

@@ -1,0 +1,24 @@
+// bake/assemble.h - the tiles that were baked for a target become its per-basis pictures.
+#pragma once
+
+#include "bake/plan.h"
+#include "bake/surface.h"
+#include "image/bakes.h"
+
+#include <vector>
+
+namespace rnmbake {
+
+/// `pictures`: for each tile of `tiles` (all of one target) what was baked, RGBA with alpha = coverage.
+/// `surface` gives the geometry for the horizon identity (bake/receiver.h) and for the frames; it may be
+/// null where neither is needed. Throws Error(tasks_failed) if no texel at all was baked although the
+/// target covers some.
+[[nodiscard]] TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles,
+                                   const std::vector<FloatImage>& pictures,
+                                   const std::vector<BasisDirection>& bases, const Surface* surface,
+                                   bool frames);
+
+/// True where a target has tiles that only the identity can put together.
+[[nodiscard]] bool needs_surface(const std::vector<const Tile*>& tiles);
+
+}  // namespace rnmbake

@@ -1,0 +1,28 @@
+// bake/atlas.h - places many tiles into as few pictures as a limit allows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rnmbake {
+
+struct TileSize {
+  int width = 0, height = 0;  // texels
+};
+
+struct Placement {
+  std::size_t atlas = 0;
+  int x = 0, y = 0;  // texel of the tile's lower left corner
+};
+
+struct AtlasPlan {
+  std::vector<TileSize> atlases;
+  std::vector<Placement> placements;  // [tiles], in the order given
+};
+
+/// Shelf packing, tallest first. No atlas has more than `max_pixels` unless a single tile alone does; a
+/// single tile gets an atlas of its own size.
+[[nodiscard]] AtlasPlan pack(const std::vector<TileSize>& tiles, std::int64_t max_pixels);
+
+}  // namespace rnmbake

@@ -1,0 +1,80 @@
+// bake/plan.h - which pictures are baked by which launch of Blender.
+#pragma once
+
+#include "bake/atlas.h"
+#include "bake/receiver.h"
+#include "bake/targets.h"
+#include "config/bake_settings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// What has to be the same for things baked in one launch.
+struct CyclesSettings {
+  int samples = 256, bounces = 32, seed = 0;
+  double clamp = 0;
+  std::string device = "CPU";
+  bool operator==(const CyclesSettings&) const = default;
+};
+
+/// A sheet cropped to the texels that it covers. Texel rows count from the bottom.
+struct Tile {
+  std::size_t target = 0;
+  Sheet sheet;
+  int x = 0, y = 0;  // lower left texel within the target's lightmap
+  TileSize size;
+};
+
+/// The smallest piece that can be baked alone: one basis of one target, with all that it needs but `moments`,
+/// which are a unit of their own since every basis shares them.
+struct Unit {
+  std::size_t target = 0;
+  std::string name;                // of the basis, or "horizon"
+  std::size_t basis = 0;           // index into the bases
+  std::vector<std::size_t> tiles;  // indices into Plan::tiles
+  CyclesSettings cycles;
+};
+
+/// One launch of Blender.
+struct Dispatch {
+  std::vector<std::size_t> units;
+};
+
+struct Plan {
+  std::vector<Tile> tiles;
+  std::vector<Unit> units;
+  std::vector<Dispatch> dispatches;
+};
+
+/// Crops the sheets of one target and adds them as units. Empty sheets are left out.
+void add_receiver_units(Plan& plan, std::size_t target_index, const Target& target, Sheets sheets,
+                        const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
+
+/// Units without receivers, for flat-normal-map: Blender bakes the object itself. One whole tile each.
+void add_object_units(Plan& plan, std::size_t target_index, const Target& target,
+                      const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
+
+/// Groups units into launches: one for each unit, each target, or all that share their Cycles settings.
+void group_units(Plan& plan, BakingSettings::Dispatch mode);
+
+/// What `automatic` means for a recipe: joined for receivers, a launch for each object otherwise.
+[[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
+
+/// The two halves of a dispatch that failed; at a boundary between targets where there is one.
+[[nodiscard]] std::vector<Dispatch> split(const Dispatch& dispatch, const Plan& plan);
+
+/// Bytes that Blender needs for one pixel of an atlas and one triangle of a scene or receiver (measured,
+/// docs/performance.md).
+inline constexpr std::int64_t bytes_per_pixel = 160;
+inline constexpr std::int64_t bytes_per_triangle = 700;
+
+/// The largest atlas (pixels) that a memory limit (bytes) allows beside the scene itself; at least one
+/// megapixel.
+[[nodiscard]] std::int64_t atlas_pixels(std::int64_t atlas_limit, std::int64_t memory,
+                                        std::int64_t scene_triangles, std::int64_t receiver_triangles);
+
+}  // namespace rnmbake

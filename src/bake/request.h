@@ -1,0 +1,52 @@
+// bake/request.h - a dispatch as blender_scripts/bake_entry.py wants it, and its pictures back.
+#pragma once
+
+#include "bake/atlas.h"
+#include "bake/plan.h"
+#include "bake/targets.h"
+#include "image/float_image.h"
+#include "scene/survey.h"
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+/// Where each tile of a dispatch was put: which picture, and at which texel.
+struct DispatchLayout {
+  std::vector<std::size_t> tiles;  // indices into Plan::tiles
+  AtlasPlan atlas;                 // placements in the order of `tiles`
+};
+
+/// Everything that a request is made from.
+struct BakeContext {
+  const Survey& survey;
+  const std::vector<Target>& targets;
+  const std::vector<BasisDirection>& bases;
+  const Plan& plan;
+};
+
+struct BakeRequest {
+  nlohmann::json json;
+  DispatchLayout layout;
+};
+
+/// Receivers of all units, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
+/// positions, normals, UVs of each group of corners) into `folder`.
+[[nodiscard]] BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatch,
+                                           std::int64_t max_pixels, const std::filesystem::path& folder);
+
+/// The published recipe: objects with their own materials. Writes unwrapped UVs and part lists into `folder`.
+[[nodiscard]] BakeRequest object_request(const BakeContext& context, const Dispatch& dispatch,
+                                         bool correct_bump, const std::filesystem::path& folder);
+
+[[nodiscard]] nlohmann::json to_json(const CyclesSettings& settings);
+
+/// The tiles (RGBA, row 0 on top, in the order of layout.tiles) of a finished dispatch.
+/// Throws Error(tasks_failed) where a file is not as long as its picture.
+[[nodiscard]] std::vector<FloatImage> read_tiles(const DispatchLayout& layout, const Plan& plan,
+                                                 const std::filesystem::path& folder);
+
+}  // namespace rnmbake

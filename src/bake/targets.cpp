@@ -1,0 +1,135 @@
+#include "bake/targets.h"
+
+#include "base/error.h"
+#include "scene/loose_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace rnmbake {
+namespace {
+
+std::optional<int> layer_named(const Mesh& mesh, std::string_view name) {
+  for (std::size_t i = 0; i < mesh.uv_layers.size(); ++i) {
+    if (mesh.uv_layers[i].name == name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+std::string layer_names(const Mesh& mesh) {
+  std::string names;
+  for (const UvLayer& layer : mesh.uv_layers) names += (names.empty() ? "'" : ", '") + layer.name + "'";
+  return names.empty() ? "none" : names;
+}
+
+double uv_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return 0.5 * std::abs(double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y));
+}
+
+bool has_area(const Mesh& mesh, int layer) {
+  const std::vector<Vec2>& uv = mesh.uv_layers[std::size_t(layer)].uv;
+  double sum = 0;
+  for (std::size_t corner = 0; corner + 2 < mesh.triangle_loops.size(); corner += 3) {
+    const auto* loops = &mesh.triangle_loops[corner];
+    sum += uv_area(uv[loops[0]], uv[loops[1]], uv[loops[2]]);
+  }
+  return sum > 1e-12;
+}
+
+/// The layer that its name or place marks as the lightmap's.
+std::optional<int> conventional_layer(const Mesh& mesh) {
+  for (const char* name : {"Lightmap", "UV2", "lightmap"}) {
+    if (const auto layer = layer_named(mesh, name)) return layer;
+  }
+  if (mesh.uv_layers.size() > 1) return 1;
+  return std::nullopt;
+}
+
+}  // namespace
+
+UvChoice choose_lightmap_uv(const Mesh& mesh, const ObjectSettings& settings, const std::string& object) {
+  const bool may_unwrap = settings.unwrap != ObjectSettings::Unwrap::never;
+  if (settings.unwrap == ObjectSettings::Unwrap::always) return {std::nullopt, "asked for"};
+  std::optional<int> layer = settings.uv.empty() ? conventional_layer(mesh) : layer_named(mesh, settings.uv);
+  if (!layer && !settings.uv.empty()) {
+    fail(ExitCode::invalid_input,
+         "object '{}' has no UV layer '{}' (it has {}): name another with --uv, or let it be unwrapped with "
+         "--unwrap always",
+         object, settings.uv, layer_names(mesh));
+  }
+  if (!layer && may_unwrap) return {std::nullopt, "no lightmap UV layer"};
+  if (!layer) {
+    fail(ExitCode::invalid_input,
+         "object '{}' has no lightmap UV layer (it has {}): name one with --uv, or allow --unwrap auto",
+         object, layer_names(mesh));
+  }
+  const std::string& name = mesh.uv_layers[std::size_t(*layer)].name;
+  if (has_area(mesh, *layer)) return {layer, "layer '" + name + "'"};
+  if (may_unwrap && settings.uv.empty()) return {std::nullopt, "layer '" + name + "' has no area"};
+  fail(ExitCode::invalid_input,
+       "UV layer '{}' of object '{}' has no area (all UVs in one point or line): unwrap it, or pass --unwrap "
+       "always",
+       name, object);
+}
+
+std::optional<int> choose_tangent_uv(const Mesh& mesh, const ObjectSettings& settings,
+                                     const std::string& object) {
+  if (!settings.tangent_uv.empty()) {
+    const auto layer = layer_named(mesh, settings.tangent_uv);
+    if (layer) return layer;
+    fail(ExitCode::invalid_input,
+         "object '{}' has no UV layer '{}' for its tangents (it has {}): name another with --tangent-uv",
+         object, settings.tangent_uv, layer_names(mesh));
+  }
+  if (mesh.render_uv >= 0) return mesh.render_uv;
+  if (!mesh.uv_layers.empty()) return 0;
+  return std::nullopt;
+}
+
+Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const std::vector<Vec2>& uv,
+            const Mat44& to_world) {
+  Areas sum;
+  for (const std::uint32_t triangle : triangles) {
+    std::array<Vec3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = Vec3d(mesh.positions[mesh.corner_vertex(3 * std::size_t(triangle) + k)]) * to_world;
+    sum.world += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
+    const auto* loops = &mesh.triangle_loops[3 * std::size_t(triangle)];
+    sum.uv += uv_area(uv[loops[0]], uv[loops[1]], uv[loops[2]]);
+  }
+  return sum;
+}
+
+int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
+  double side = settings.resolution;
+  if (settings.texels_per_unit > 0) {
+    side =
+        areas.uv > 0 ? settings.texels_per_unit * std::sqrt(areas.world / areas.uv) : settings.min_resolution;
+    side = std::clamp(side, double(settings.min_resolution), double(settings.max_resolution));
+  }
+  return static_cast<int>(std::ceil(side / 4 - 1e-6)) * 4;
+}
+
+std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
+                             ObjectSettings::Split mode) {
+  std::vector<std::uint32_t> label(mesh.triangles(), 0);
+  if (mode == ObjectSettings::Split::loose) label = loose_parts(mesh).part;
+  if (mode == ObjectSettings::Split::material) {
+    for (std::size_t t = 0; t < label.size(); ++t) label[t] = mesh.polygon_slot[mesh.triangle_polygon[t]];
+  }
+  const std::uint32_t last = label.empty() ? 0 : *std::max_element(label.begin(), label.end());
+  std::vector<Part> parts(last + 1);
+  for (std::uint32_t t = 0; t < label.size(); ++t) parts[label[t]].triangles.push_back(t);
+  for (std::size_t i = 0; i < parts.size() && mode != ObjectSettings::Split::none; ++i) {
+    const bool named = mode == ObjectSettings::Split::material && i < slots.size() && !slots[i].empty();
+    parts[i].name =
+        named ? slots[i] : (mode == ObjectSettings::Split::material ? "slot" : "part") + std::to_string(i);
+  }
+  std::erase_if(parts, [](const Part& part) { return part.triangles.empty(); });
+  return parts;
+}
+
+}  // namespace rnmbake

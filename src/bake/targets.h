@@ -1,0 +1,62 @@
+// bake/targets.h - what is baked: objects or parts of them, with their UVs and their size.
+#pragma once
+
+#include "base/math.h"
+#include "config/bake_settings.h"
+#include "scene/survey.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// Which layer holds the lightmap. `layer` is empty where the object has to be unwrapped; `reason` says why.
+struct UvChoice {
+  std::optional<int> layer;
+  std::string reason;
+};
+
+/// The layer named by the settings, else Lightmap / UV2 / lightmap, else the second layer, else unwrapping.
+/// A layer whose UVs have no area counts as absent. Throws Error(invalid_input) naming the object.
+[[nodiscard]] UvChoice choose_lightmap_uv(const Mesh& mesh, const ObjectSettings& settings,
+                                          const std::string& object);
+
+/// The normal map's layer: the one named, else active-render, else the first; empty: the object has none.
+[[nodiscard]] std::optional<int> choose_tangent_uv(const Mesh& mesh, const ObjectSettings& settings,
+                                                   const std::string& object);
+
+struct Areas {
+  double world = 0;  // square units
+  double uv = 0;     // share of the unit square, overlaps counted twice
+};
+[[nodiscard]] Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+                          const std::vector<Vec2>& uv, const Mat44& to_world);
+
+/// Side of the square lightmap: a multiple of 4 within the limits.
+[[nodiscard]] int choose_resolution(const ObjectSettings& settings, const Areas& areas);
+
+/// A piece of a mesh that gets a lightmap of its own.
+struct Part {
+  std::string name;  // "" for a whole object, else the material's name or "part<n>"
+  std::vector<std::uint32_t> triangles;
+};
+[[nodiscard]] std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
+                                           ObjectSettings::Split mode);
+
+using Uvs = std::shared_ptr<const std::vector<Vec2>>;  // one for each loop
+
+struct Target {
+  std::size_t object = 0;  // index into Survey::objects
+  std::string key;         // the object's key, with "/part" where it was split
+  Part part;
+  Uvs uv, tangent_uv;
+  std::string uv_layer;       // name; "Lightmap" where it was unwrapped
+  std::string tangent_layer;  // name; the lightmap layer's where the object has no other
+  bool unwrapped = false;
+  int width = 0, height = 0;
+};
+
+}  // namespace rnmbake

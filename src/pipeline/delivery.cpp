@@ -1,0 +1,136 @@
+#include "pipeline/delivery.h"
+
+#include "bake/assemble.h"
+#include "base/error.h"
+#include "base/log.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& note) {
+  MergeOptions options;
+  options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
+  options.depth = output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
+  options.dilate = note.dilate;
+  options.repair = output.repair;
+  return options;
+}
+
+bool is_shared(const Layer& layer) {
+  return layer.name == "coverage" || layer.name == "tangent" || layer.name == "normal";
+}
+
+/// The image of one basis for --layout files: its layer becomes the plain R, G, B.
+LayeredImage single(const LayeredImage& image, const Layer& layer) {
+  LayeredImage one;
+  one.layers.push_back(layer);
+  one.layers.front().name.clear();
+  for (const Layer& other : image.layers) {
+    if (is_shared(other)) one.layers.push_back(other);
+  }
+  return one;
+}
+
+void warn_about(const std::string& key, const MergeCounts& counts, bool repaired) {
+  if (counts.non_finite > 0) {
+    log::warn("{}: {} texels are NaN or infinite{}", key, counts.non_finite,
+              repaired ? ", repaired" : "; --repair fills them from their neighbours");
+  }
+  if (counts.beyond_half > 0) {
+    log::warn("{}: {} values beyond 65504 were clamped; --depth float keeps them", key, counts.beyond_half);
+  }
+}
+
+}  // namespace
+
+DeliveryDesk::DeliveryDesk(const BakeContext& context, const OutputSettings& output,
+                           std::vector<DeliveryNote> notes)
+    : context_(context),
+      output_(output),
+      notes_(std::move(notes)),
+      shelves_(notes_.size()),
+      deliveries_(notes_.size()) {
+  for (const Unit& unit : context.plan.units) ++shelves_[unit.target].missing;
+}
+
+void DeliveryDesk::take(const Dispatch& dispatch, const DispatchLayout& layout,
+                        std::vector<FloatImage> pictures) {
+  std::vector<std::pair<std::size_t, Shelf>> complete;
+  {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const std::size_t tile = layout.tiles[i];
+      shelves_[context_.plan.tiles[tile].target].pictures[tile] = std::move(pictures[i]);
+    }
+    for (const std::size_t unit : dispatch.units) {
+      const std::size_t target = context_.plan.units[unit].target;
+      if (--shelves_[target].missing == 0 && !deliveries_[target])
+        complete.emplace_back(target, std::exchange(shelves_[target], {}));
+    }
+  }
+  for (auto& [target, shelf] : complete) {
+    Delivery delivery = finish(target, std::move(shelf));
+    const std::lock_guard lock(mutex_);
+    deliveries_[target] = std::move(delivery);
+  }
+}
+
+void DeliveryDesk::give_up(std::size_t target, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  if (deliveries_[target]) return;
+  deliveries_[target] = NotDelivered{reason};
+  shelves_[target].pictures.clear();
+  log::error("{}: {}", context_.targets[target].key, reason);
+}
+
+bool DeliveryDesk::is_settled(std::size_t target) const {
+  const std::lock_guard lock(mutex_);
+  return deliveries_[target].has_value();
+}
+
+Delivery DeliveryDesk::finish(std::size_t target_index, Shelf shelf) const {
+  const Target& target = context_.targets[target_index];
+  const DeliveryNote& note = notes_[target_index];
+  std::vector<const Tile*> tiles;
+  std::vector<FloatImage> pictures;
+  for (auto& [tile, picture] : shelf.pictures) {
+    tiles.push_back(&context_.plan.tiles[tile]);
+    pictures.push_back(std::move(picture));
+  }
+  try {
+    const TargetBakes bakes =
+        assemble(target, tiles, pictures, context_.bases, note.surface.get(), output_.frames);
+    MergedLightmap merged = merge(bakes, merge_options(output_, note));
+    warn_about(target.key, merged.counts, output_.repair);
+    return Delivered{write(note, merged.image), merged.counts};
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
+    log::error("{}", error.what());
+    return NotDelivered{error.what()};
+  }
+}
+
+std::vector<std::string> DeliveryDesk::write(const DeliveryNote& note, const LayeredImage& image) const {
+  const Depth depth = output_.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
+  const auto save = [&](const std::string& name, LayeredImage content,
+                        const std::vector<BasisDirection>& bases) {
+    LightmapMetadata metadata = note.metadata;
+    metadata.bases = bases;
+    write_metadata(metadata, content);
+    write_exr(output_.dir / name, content, depth);
+    return name;
+  };
+  if (output_.layout == OutputSettings::Layout::layers)
+    return {save(note.stem + ".exr", image, context_.bases)};
+  std::vector<std::string> files;
+  for (const BasisDirection& basis : context_.bases) {
+    const Layer* layer = image.find(basis.name == "flat" ? "" : basis.name);
+    files.push_back(save(note.stem + "." + basis.name + ".exr", single(image, *layer), {basis}));
+  }
+  return files;
+}
+
+}  // namespace rnmbake

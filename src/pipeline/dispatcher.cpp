@@ -1,0 +1,217 @@
+#include "pipeline/dispatcher.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "pipeline/memory.h"
+#include "pipeline/scene_survey.h"
+#include "process/stop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Task {
+  Dispatch dispatch;
+  int retries_left = 0;
+};
+
+/// Texels x samples: what the time of a bake is proportional to.
+double work_of(const Dispatch& dispatch, const Plan& plan) {
+  double work = 0;
+  for (const std::size_t unit : dispatch.units) {
+    for (const std::size_t tile : plan.units[unit].tiles) {
+      const TileSize size = plan.tiles[tile].size;
+      work += double(size.width) * size.height * plan.units[unit].cycles.samples;
+    }
+  }
+  return work;
+}
+
+class Dispatcher {
+ public:
+  Dispatcher(Workspace& workspace, const BakeContext& context, fs::path blend, DeliveryDesk& desk)
+      : workspace_(workspace),
+        context_(context),
+        blend_(std::move(blend)),
+        desk_(desk),
+        jobs_(choose_jobs(workspace.settings(), context.plan.dispatches.size())),
+        progress_("baking", progress_for(false, false)) {
+    for (const Dispatch& dispatch : context.plan.dispatches) {
+      queue_.push_back({dispatch, workspace.settings().run.retries});
+      total_work_ += work_of(dispatch, context.plan);
+    }
+  }
+
+  BakeTimings run() {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::thread> workers;
+    for (int job = 0; job < jobs_; ++job) workers.emplace_back([this] { work(); });
+    for (std::thread& worker : workers) worker.join();
+    if (error_) std::rethrow_exception(error_);
+    timings_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return timings_;
+  }
+
+ private:
+  void work() {
+    while (auto task = next()) {
+      try {
+        run_task(*task);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!error_) error_ = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      --running_;
+      changed_.notify_all();
+    }
+  }
+
+  std::optional<Task> next() {
+    std::unique_lock lock(mutex_);
+    // A running task may still split, so an empty queue alone is not the end.
+    changed_.wait(lock, [this] { return error_ || !queue_.empty() || running_ == 0; });
+    if (error_ || queue_.empty()) return std::nullopt;
+    Task task = std::move(queue_.front());
+    queue_.pop_front();
+    ++running_;
+    return task;
+  }
+
+  void run_task(Task task) {
+    drop_settled(task.dispatch);
+    if (task.dispatch.units.empty()) return;
+    Launch launch;
+    launch.entry = "bake_entry.py";
+    launch.scene = blend_;
+    launch.folder = workspace_.new_folder("bake");
+    launch.threads = workspace_.threads(jobs_);
+    BakeRequest request = make_request(task.dispatch, launch.folder);
+    launch.request = std::move(request.json);
+    launch.request.update(scene_request(workspace_, blend_));
+    const LaunchOutcome outcome = workspace_.blender().run(
+        launch, workspace_.limits(), [&](const ProgressEvent& event) { show(task.dispatch, event); });
+    if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
+      recover(std::move(task), *failure);
+    } else {
+      desk_.take(task.dispatch, request.layout, read_tiles(request.layout, context_.plan, launch.folder));
+      count(task.dispatch, std::get<Finished>(outcome));
+    }
+    if (!workspace_.settings().output.keep_temporary) fs::remove_all(launch.folder);
+  }
+
+  BakeRequest make_request(const Dispatch& dispatch, const fs::path& folder) const {
+    const BakeSettings& settings = workspace_.settings();
+    if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map) {
+      return object_request(context_, dispatch, settings.bake.correct_bump, folder);
+    }
+    return receiver_request(context_, dispatch, atlas_pixels_for(settings, context_, dispatch, jobs_),
+                            folder);
+  }
+
+  /// A target that was given up takes its other units with it.
+  void drop_settled(Dispatch& dispatch) const {
+    std::erase_if(dispatch.units,
+                  [&](std::size_t unit) { return desk_.is_settled(context_.plan.units[unit].target); });
+  }
+
+  void recover(Task task, const LaunchFailure& failure) {
+    {
+      const std::lock_guard lock(mutex_);
+      ++timings_.launches;
+      ++timings_.failed_launches;
+    }
+    const bool hopeless =
+        failure.kind == LaunchFailure::Kind::stopped ||
+        (failure.kind == LaunchFailure::Kind::refused && failure.code == int(ExitCode::environment));
+    if (hopeless) throw_failure(failure);
+    if (!failure.details.empty()) log::debug("{}", failure.details);
+    if (task.dispatch.units.size() > 1) {
+      log::warn("{}; splitting {} bakes to find the offender", describe(failure), task.dispatch.units.size());
+      for (Dispatch& half : split(task.dispatch, context_.plan))
+        enqueue({std::move(half), task.retries_left});
+      return;
+    }
+    const Unit& unit = context_.plan.units[task.dispatch.units.front()];
+    if (failure.kind != LaunchFailure::Kind::refused && task.retries_left > 0) {
+      log::warn("{} ({}): {}; trying again", context_.targets[unit.target].key, unit.name, describe(failure));
+      enqueue({std::move(task.dispatch), task.retries_left - 1});
+      return;
+    }
+    desk_.give_up(unit.target, fmt::format("basis {}: {}", unit.name, describe(failure)));
+  }
+
+  void enqueue(Task task) {
+    const std::lock_guard lock(mutex_);
+    queue_.push_front(std::move(task));
+    changed_.notify_all();
+  }
+
+  void count(const Dispatch& dispatch, const Finished& finished) {
+    const std::lock_guard lock(mutex_);
+    ++timings_.launches;
+    timings_.launch_seconds += finished.wall_seconds;
+    timings_.peak_bytes = std::max(timings_.peak_bytes, finished.peak_bytes);
+    for (const auto& laps : finished.result) {
+      for (const auto& lap : laps) {
+        timings_.prepare_seconds += lap.value("prepare_seconds", 0.0);
+        timings_.bake_seconds += lap.value("bake_seconds", 0.0);
+        timings_.save_seconds += lap.value("save_seconds", 0.0);
+      }
+    }
+    running_work_.erase(dispatch.units.front());
+    done_work_ += work_of(dispatch, context_.plan);
+    progress_.update(done_work_ / total_work_, "");
+  }
+
+  void show(const Dispatch& dispatch, const ProgressEvent& event) {
+    const std::lock_guard lock(mutex_);
+    if (event.total > 0)
+      running_work_[dispatch.units.front()] = work_of(dispatch, context_.plan) * event.done / event.total;
+    double work = done_work_;
+    for (const auto& [unit, part] : running_work_) work += part;
+    progress_.update(work / total_work_, event.what.empty() ? event.phase : event.phase + " " + event.what);
+  }
+
+  Workspace& workspace_;
+  const BakeContext& context_;
+  fs::path blend_;
+  DeliveryDesk& desk_;
+  int jobs_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Task> queue_;
+  int running_ = 0;
+  std::exception_ptr error_;
+  BakeTimings timings_;
+  double total_work_ = 0, done_work_ = 0;
+  std::map<std::size_t, double> running_work_;  // by a dispatch's first unit
+  Progress progress_;
+};
+
+}  // namespace
+
+int choose_jobs(const BakeSettings& settings, std::size_t dispatches) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int wanted = settings.run.jobs > 0 ? settings.run.jobs : cores;
+  return std::clamp(static_cast<int>(dispatches), 1, wanted);
+}
+
+BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context, const fs::path& blend,
+                           DeliveryDesk& desk) {
+  return Dispatcher(workspace, context, blend, desk).run();
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,61 @@
+#include "pipeline/scene_survey.h"
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_blend(const fs::path& file) {
+  return file.extension() == ".blend";
+}
+
+Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, const fs::path& scene) {
+  Launch launch;
+  launch.entry = entry;
+  if (is_blend(scene)) launch.scene = scene;
+  launch.request = scene_request(workspace, scene);
+  launch.folder = workspace.new_folder(purpose);
+  return launch;
+}
+
+/// A .blend in which every surface shows its own baked albedo and emission through a plain diffuse material.
+fs::path make_lambert_scene(Workspace& workspace, const fs::path& scene) {
+  log::info("baking albedo and emission for --materials lambert");
+  Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", scene);
+  return launch.folder / workspace.run(launch).at("blend").get<std::string>();
+}
+
+}  // namespace
+
+nlohmann::json scene_request(const Workspace& workspace, const fs::path& blend) {
+  return {{"scene", fs::absolute(blend).string()},
+          {"allow_scripts", workspace.settings().scene.allow_scripts}};
+}
+
+SurveyedScene survey_scene(Workspace& workspace) {
+  const SceneSettings& scene = workspace.settings().scene;
+  SurveyedScene result;
+  result.blend = fs::absolute(scene.file);
+  if (scene.materials == SceneSettings::Materials::lambert)
+    result.blend = make_lambert_scene(workspace, result.blend);
+
+  Launch launch = launch_on(workspace, "survey_entry.py", "survey", result.blend);
+  const fs::path folder = launch.folder;
+  const nlohmann::json answer = workspace.run(std::move(launch));
+  result.survey = read_survey(folder / answer.at("survey").get<std::string>());
+  if (const auto imported = answer.find("blend"); imported != answer.end() && imported->is_string()) {
+    result.blend = folder / imported->get<std::string>();
+  }
+  for (const std::string& warning : result.survey.warnings) log::warn("{}", warning);
+  if (result.survey.objects.empty()) {
+    fail(ExitCode::invalid_input,
+         "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
+         scene.file.string());
+  }
+  return result;
+}
+
+}  // namespace rnmbake

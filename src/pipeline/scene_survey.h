@@ -1,0 +1,23 @@
+// pipeline/scene_survey.h - opens the scene once and learns all that planning needs.
+#pragma once
+
+#include "pipeline/workspace.h"
+#include "scene/survey.h"
+
+#include <filesystem>
+
+namespace rnmbake {
+
+struct SurveyedScene {
+  Survey survey;
+  std::filesystem::path blend;  // what later launches open: the scene, or a .blend made from it
+};
+
+/// Imports glTF, replaces the materials for --materials lambert, surveys. Logs what Blender warns of.
+/// Throws Error(invalid_input) where there is nothing with faces.
+[[nodiscard]] SurveyedScene survey_scene(Workspace& workspace);
+
+/// The part of every request that says which scene it is about.
+[[nodiscard]] nlohmann::json scene_request(const Workspace& workspace, const std::filesystem::path& blend);
+
+}  // namespace rnmbake
