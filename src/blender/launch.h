@@ -1,55 +1,56 @@
 // blender/launch.h - one headless run of one entry script, with limits, told apart by how it ended.
 #pragma once
 
+#include "blender/probe.h"
+
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 
-#include "blender/probe.h"
+#include <nlohmann/json.hpp>
 
 namespace rnmbake {
 
 /// What to run. `folder` is private to the launch and must exist: request.json, result.json, progress.jsonl,
 /// stdout.log, tmp/ and home/ are made in it.
 struct Launch {
-  std::string entry;                             // file name in the scripts folder: "bake_entry.py"
-  std::optional<std::filesystem::path> scene;    // a .blend to open; none: factory start-up
-  nlohmann::json request;                        // becomes request.json, with "nonce" and "folder" added
+  std::string entry;                           // file name in the scripts folder: "bake_entry.py"
+  std::optional<std::filesystem::path> scene;  // a .blend to open; none: factory start-up
+  nlohmann::json request;                      // becomes request.json, with "nonce" and "folder" added
   std::filesystem::path folder;
-  int threads = 0;                               // 0: Blender's own choice
+  int threads = 0;  // 0: Blender's own choice
 };
 
 struct LaunchLimits {
-  double silence_seconds = 600; // no CPU time used, nothing printed and no progress event for so long: hung
-  double total_seconds = 0;     // 0: no limit
+  double silence_seconds = 600;  // no CPU time used, nothing printed and no progress event for so long: hung
+  double total_seconds = 0;      // 0: no limit
 };
 
 /// One line of progress.jsonl.
 struct ProgressEvent {
-  std::string phase; // "load", "evaluate", "build", "bake", "save"
-  std::string what;  // the object or tile in work
+  std::string phase;  // "load", "evaluate", "build", "bake", "save"
+  std::string what;   // the object or tile in work
   double done = 0, total = 0;
 };
 
 struct Finished {
-  nlohmann::json result; // what the script returned, nonce checked
+  nlohmann::json result;  // what the script returned, nonce checked
   double wall_seconds = 0, cpu_seconds = 0;
-  std::size_t peak_bytes = 0; // of the Blender process
+  std::size_t peak_bytes = 0;  // of the Blender process
 };
 
 /// Why a launch gave no result. `message` is one line, with the object if the script knew it.
 struct LaunchFailure {
   enum class Kind {
-    refused,   // the script found something wrong with the scene and says what (ExitCode in `code`)
-    script,    // a Python exception: a defect of ours; the traceback is in `details`
-    crashed,   // ended by a signal of its own (SIGSEGV, SIGABRT)
-    killed,    // SIGKILL that we did not send: most likely out of memory
-    hung,      // ended by us after LaunchLimits
-    no_result, // exit 0, but no result file with our nonce
-    stopped,   // the user interrupted
+    refused,    // the script found something wrong with the scene and says what (ExitCode in `code`)
+    script,     // a Python exception: a defect of ours; the traceback is in `details`
+    crashed,    // ended by a signal of its own (SIGSEGV, SIGABRT)
+    killed,     // SIGKILL that we did not send: most likely out of memory
+    hung,       // ended by us after LaunchLimits
+    no_result,  // exit 0, but no result file with our nonce
+    stopped,    // the user interrupted
   };
   Kind kind = Kind::no_result;
   int code = 0;

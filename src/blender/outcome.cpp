@@ -1,0 +1,157 @@
+#include "blender/outcome.h"
+
+#include "base/error.h"
+#include "base/files.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): SIGKILL
+
+namespace rnmbake {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Kind = LaunchFailure::Kind;
+using EndedBy = ProcessResult::EndedBy;
+
+constexpr std::size_t details_bytes = 4000;
+
+/// The signal, also where a wrapper script turned it into 128 + signal.
+int signal_of(const ProcessResult& process) {
+  if (process.signal != 0) return process.signal;
+  const int hidden = process.exit_code - 128;
+  static constexpr std::array fatal = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGKILL, SIGTRAP, SIGSYS};
+  return std::find(fatal.begin(), fatal.end(), hidden) != fatal.end() ? hidden : 0;
+}
+
+/// The answer of this very launch; null if there is none.
+nlohmann::json answer_in(const fs::path& folder, const std::string& nonce) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "result.json", error)) return nullptr;
+  nlohmann::json answer = nlohmann::json::parse(read_text(folder / "result.json"), nullptr, false);
+  const bool ours = answer.is_object() && answer.contains("nonce") && answer["nonce"] == nonce;
+  return ours ? answer : nlohmann::json();
+}
+
+/// Blender's last words, and the crash report that it leaves in its temporary folder.
+std::string last_words(const fs::path& folder) {
+  std::string words = read_tail(folder / "stdout.log", details_bytes);
+  std::error_code error;
+  for (fs::directory_iterator it(folder / "tmp", error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (name.find("crash") != std::string::npos) words += read_tail(it->path(), details_bytes);
+  }
+  return words;
+}
+
+/// The line in which Blender says that it cannot open the scene; empty if there is none.
+std::string load_error(const std::string& words) {
+  std::istringstream lines(words);
+  for (std::string line; std::getline(lines, line);) {
+    for (const char* sign :
+         {"File format is not supported", "Failed to read blend file", "Cannot read file"}) {
+      const std::size_t at = line.find(sign);
+      if (at != std::string::npos) return line.substr(at);
+    }
+  }
+  return "";
+}
+
+LaunchFailure failure(Kind kind, int code, std::string message, std::string details = "") {
+  LaunchFailure out;
+  out.kind = kind;
+  out.code = code;
+  out.message = std::move(message);
+  out.details = std::move(details);
+  return out;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::string text_at(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+LaunchFailure refused(const nlohmann::json& refusal) {
+  const auto code = refusal.find("code");
+  const int value = code != refusal.end() && code->is_number_integer()
+                        ? code->get<int>()
+                        : static_cast<int>(ExitCode::invalid_input);
+  LaunchFailure out = failure(Kind::refused, value, one_line(text_at(refusal, "message")));
+  out.object = text_at(refusal, "object");
+  return out;
+}
+
+LaunchFailure ended_by_us(const ProcessResult& process, const LaunchLimits& limits,
+                          const std::string& words) {
+  if (process.ended_by == EndedBy::stop_request) return failure(Kind::stopped, 0, "stopped by the user");
+  if (process.ended_by == EndedBy::silence) {
+    return failure(Kind::hung, 0,
+                   fmt::format("Blender did nothing for {:.0f} s and was ended", limits.silence_seconds),
+                   words);
+  }
+  return failure(
+      Kind::hung, 0,
+      fmt::format("Blender ran longer than the limit of {:.0f} s and was ended", limits.total_seconds),
+      words);
+}
+
+LaunchFailure ended_by_signal(int signal, const std::string& words) {
+  if (signal == SIGKILL) {
+    return failure(
+        Kind::killed, signal,
+        "Blender was killed, most likely because memory ran out; try fewer --jobs or a smaller --atlas-limit",
+        words);
+  }
+  return failure(Kind::crashed, signal, fmt::format("Blender crashed ({})", signal_name(signal)), words);
+}
+
+LaunchFailure without_answer(const Launch& launch, const ProcessResult& process, const std::string& words) {
+  const std::string load = load_error(words);
+  if (process.exit_code == 1 && launch.scene && !load.empty()) {
+    return failure(Kind::refused, static_cast<int>(ExitCode::invalid_input),
+                   fmt::format("{}: Blender cannot open it ({}); open and save it again with this Blender",
+                               launch.scene->string(), load),
+                   words);
+  }
+  if (process.exit_code == 86) {
+    return failure(Kind::script, process.exit_code,
+                   fmt::format("{} failed before it could answer", launch.entry), words);
+  }
+  return failure(Kind::no_result, process.exit_code,
+                 fmt::format("Blender ended with exit code {} and without a result", process.exit_code),
+                 words);
+}
+
+}  // namespace
+
+LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
+                    const ProcessResult& process) {
+  const std::string words = last_words(launch.folder);
+  if (process.ended_by != EndedBy::itself) return ended_by_us(process, limits, words);
+  if (const int signal = signal_of(process); signal != 0) return ended_by_signal(signal, words);
+  nlohmann::json answer = answer_in(launch.folder, nonce);
+  if (answer.is_null()) return without_answer(launch, process, words);
+  if (const auto failed = answer.find("failed"); failed != answer.end()) {
+    return failure(Kind::script, process.exit_code,
+                   fmt::format("{} failed: {}", launch.entry, one_line(text_at(*failed, "message"))),
+                   text_at(*failed, "traceback"));
+  }
+  if (process.exit_code != 0) {
+    return failure(Kind::no_result, process.exit_code,
+                   fmt::format("Blender answered but ended with exit code {}", process.exit_code), words);
+  }
+  if (const auto refusal = answer.find("refused"); refusal != answer.end()) return refused(*refusal);
+  if (!answer.contains("ok")) return failure(Kind::no_result, 0, "the result file holds no result", words);
+  return Finished{std::move(answer["ok"]), process.wall_seconds, process.cpu_seconds, process.peak_bytes};
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,118 @@
+#include "blender/real_blender.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "blender/outcome.h"
+#include "blender/progress_tail.h"
+#include "process/run.h"
+
+#include <random>
+
+namespace rnmbake {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr BlenderVersion first_with_offline_mode = {4, 2, 0};  // before, it is taken for a file name
+
+std::string new_nonce() {
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", device(), device(), device(), device());
+}
+
+/// Removes what an earlier try may have left and writes the request.
+void prepare(const Launch& launch, const std::string& nonce) {
+  for (const char* name : {"result.json", "progress.jsonl", "stdout.log"}) fs::remove(launch.folder / name);
+  make_folders(launch.folder / "tmp");
+  make_folders(launch.folder / "home");
+  nlohmann::json request = launch.request.is_null() ? nlohmann::json::object() : launch.request;
+  request["nonce"] = nonce;
+  request["folder"] = fs::absolute(launch.folder).string();
+  try {
+    write_atomically(launch.folder / "request.json", request.dump());
+  } catch (const nlohmann::json::type_error&) {
+    fail(ExitCode::unsupported, "a path or name given to {} is not UTF-8; rename it", launch.entry);
+  }
+}
+
+std::optional<LaunchFailure> unreadable_scene(const Launch& launch) {
+  std::error_code error;
+  if (!launch.scene || fs::is_regular_file(*launch.scene, error)) return std::nullopt;
+  LaunchFailure failure;
+  failure.kind = LaunchFailure::Kind::refused;
+  failure.code = static_cast<int>(ExitCode::io);
+  failure.message = fmt::format("cannot read {}: {}; check the path", launch.scene->string(),
+                                error ? error.message() : "it is not a file");
+  return failure;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder& scripts,
+                                     const LaunchTrust& trust, const Launch& launch) {
+  std::vector<std::string> argv = {info.executable.string(), "-b", "--factory-startup", "-noaudio",
+                                   trust.allow_scripts ? "-y" : "-Y"};
+  if (info.version >= first_with_offline_mode) argv.emplace_back("--offline-mode");
+  if (launch.threads > 0) argv.insert(argv.end(), {"-t", std::to_string(launch.threads)});
+  argv.insert(argv.end(), {"--python-exit-code", "86"});
+  if (launch.scene) argv.push_back(fs::absolute(*launch.scene).string());
+  const std::string request = (fs::absolute(launch.folder) / "request.json").string();
+  argv.insert(argv.end(), {"--python", scripts.entry(launch.entry).string(), "--", request});
+  return argv;
+}
+
+std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(const fs::path& folder) {
+  const fs::path root = fs::absolute(folder);
+  std::vector<std::pair<std::string, std::optional<std::string>>> changes = {
+      {"HOME", (root / "home").string()},
+      {"TMPDIR", (root / "tmp").string()},
+      {"PYTHONDONTWRITEBYTECODE", "1"}};
+  for (const char* name : {"TEMP", "TMP", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME",
+                           "XDG_STATE_HOME", "BLENDER_USER_RESOURCES", "BLENDER_USER_CONFIG",
+                           "BLENDER_USER_SCRIPTS", "BLENDER_USER_EXTENSIONS", "BLENDER_USER_DATAFILES",
+                           "PYTHONPATH", "PYTHONHOME", "PYTHONSTARTUP", "DISPLAY", "WAYLAND_DISPLAY"}) {
+    changes.emplace_back(name, std::nullopt);
+  }
+  return changes;
+}
+
+LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
+                             const Launch& launch, const LaunchLimits& limits,
+                             const std::function<void(const ProgressEvent&)>& on_progress) {
+  if (auto failure = unreadable_scene(launch)) return *failure;
+  const std::string nonce = new_nonce();
+  prepare(launch, nonce);
+  ProcessOptions options;
+  options.argv = launch_argv(info, scripts, trust, launch);
+  options.environment = private_environment(launch.folder);
+  options.output = launch.folder / "stdout.log";
+  options.total_seconds = limits.total_seconds;
+  options.silence_seconds = limits.silence_seconds;
+  log::debug("starting {}", joined(options.argv));
+  ProgressTail tail(launch.folder / "progress.jsonl");
+  const ProcessResult process =
+      run_process(options, [&](const ProcessStatus&) { return tail.poll(on_progress); });
+  return judge(launch, limits, nonce, process);
+}
+
+RealBlender::RealBlender(BlenderInfo info, const Options& options)
+    : info_(std::move(info)), trust_(options.trust), scripts_(options.scripts) {}
+
+const BlenderInfo& RealBlender::complete_info() {
+  if (info_.devices.empty()) probe_devices(info_, scripts_);
+  return info_;
+}
+
+LaunchOutcome RealBlender::run(const Launch& launch, const LaunchLimits& limits,
+                               const std::function<void(const ProgressEvent&)>& on_progress) {
+  return launch_blender(info_, scripts_, trust_, launch, limits, on_progress);
+}
+
+}  // namespace rnmbake

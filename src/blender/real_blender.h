@@ -1,0 +1,59 @@
+// blender/real_blender.h - the Blender that is installed, started headless and believed only with proof.
+#pragma once
+
+#include "blender/launch.h"
+#include "blender/scripts.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rnmbake {
+
+struct LaunchTrust {
+  bool allow_scripts = false;  // scripts and scripted drivers inside the .blend may run (-y instead of -Y)
+};
+
+/// The command line of one launch. Options come before the file and the script: after them Blender ignores
+/// --python-exit-code, and what an old Blender does not know it takes for a file name.
+std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder& scripts,
+                                     const LaunchTrust& trust, const Launch& launch);
+
+/// HOME and TMPDIR inside `folder`, and nothing from outside that could change what Blender does.
+std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
+    const std::filesystem::path& folder);
+
+/// One launch to its end. An answer counts only if result.json holds this launch's nonce and Blender returned
+/// 0.
+LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
+                             const Launch& launch, const LaunchLimits& limits,
+                             const std::function<void(const ProgressEvent&)>& on_progress);
+
+/// May be used from several threads at once, each launch with its own folder.
+class RealBlender : public Blender {
+ public:
+  struct Options {
+    LaunchTrust trust;
+    std::optional<std::filesystem::path> scripts;  // none: the embedded ones
+  };
+
+  /// `info` from probe_version(find_blender(...)).
+  RealBlender(BlenderInfo info, const Options& options);
+
+  [[nodiscard]] const BlenderInfo& info() const override { return info_; }
+
+  /// Completes info() with devices, numpy and denoiser; launches Blender the first time. Not while others
+  /// run.
+  const BlenderInfo& complete_info();
+
+  LaunchOutcome run(const Launch& launch, const LaunchLimits& limits,
+                    const std::function<void(const ProgressEvent&)>& on_progress) override;
+
+ private:
+  BlenderInfo info_;
+  LaunchTrust trust_;
+  ScriptFolder scripts_;
+};
+
+}  // namespace rnmbake

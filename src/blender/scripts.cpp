@@ -1,0 +1,32 @@
+#include "blender/scripts.h"
+
+#include "base/error.h"
+
+namespace rnmbake {
+
+namespace fs = std::filesystem;
+
+ScriptFolder::ScriptFolder(const std::optional<fs::path>& instead) {
+  if (instead) {
+    if (!fs::is_directory(*instead)) {
+      fail(ExitCode::usage, "--scripts {}: no such folder; leave the flag out to use the built-in scripts",
+           instead->string());
+    }
+    path_ = fs::absolute(*instead);
+    return;
+  }
+  path_ = unpacked_.emplace().path();
+  for (const EmbeddedScript& script : embedded_scripts()) {
+    const fs::path file = path_ / script.name;
+    make_folders(file.parent_path());
+    write_atomically(file, script.text);
+  }
+}
+
+fs::path ScriptFolder::entry(const std::string& name) const {
+  fs::path file = path_ / name;
+  if (!fs::is_regular_file(file)) fail(ExitCode::environment, "the script {} is missing", file.string());
+  return file;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,183 @@
+#include "cli/doctor.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "blender/find.h"
+#include "blender/probe.h"
+#include "blender/scripts.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace rnmbake {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Lack {
+  std::string what, remedy;
+};
+
+struct Machine {
+  unsigned threads = 0;
+  std::uintmax_t memory_bytes = 0, memory_limit_bytes = 0;  // limit 0: none
+  fs::path temp_folder;
+  std::uintmax_t temp_free_bytes = 0;
+};
+
+struct Findings {
+  std::optional<BlenderInfo> blender;
+  Machine machine;
+  std::vector<Lack> missing;
+};
+
+/// The control group's limit, as containers set it (version 2, then version 1).
+std::uintmax_t memory_limit() {
+  for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    std::ifstream stream(file);
+    std::uintmax_t bytes = 0;
+    if (stream >> bytes && bytes < std::uintmax_t{1} << 60) return bytes;
+  }
+  return 0;
+}
+
+Machine look_at_machine() {
+  Machine machine;
+  machine.threads = std::thread::hardware_concurrency();
+  machine.memory_bytes = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
+                         static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  machine.memory_limit_bytes = memory_limit();
+  machine.temp_folder = temp_root();
+  std::error_code error;
+  const fs::space_info space = fs::space(machine.temp_folder, error);
+  machine.temp_free_bytes = error ? 0 : space.available;
+  return machine;
+}
+
+void look_at_blender(const DoctorOptions& options, Findings& findings) {
+  try {
+    BlenderInfo info = probe_version(find_blender(options.blender));
+    probe_devices(info, ScriptFolder(options.scripts));
+    findings.blender = std::move(info);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::environment) throw;
+    findings.missing.push_back(
+        {"a usable Blender: " + std::string(error.what()), "Debian, Ubuntu: apt install blender"});
+  }
+}
+
+void look_for_lacks(Findings& findings) {
+  constexpr std::uintmax_t little_space = std::uintmax_t{1} << 30;
+  if (findings.blender && !findings.blender->has_numpy) {
+    findings.missing.push_back(
+        {"numpy in Blender's Python (.glb and .gltf scenes need it)",
+         "Debian, Ubuntu: apt install python3-numpy; others: use blender.org's release"});
+  }
+  if (findings.machine.temp_free_bytes < little_space) {
+    findings.missing.push_back({"space for temporary files in " + findings.machine.temp_folder.string(),
+                                "free some, or point TMPDIR to a larger disk"});
+  }
+}
+
+nlohmann::json as_json(const Findings& findings) {
+  nlohmann::json json;
+  json["schema_version"] = 1;
+  json["usable"] = findings.blender.has_value();
+  json["rnmbake"] = RNMBAKE_VERSION;
+  json["openimageio"] = RNMBAKE_OPENIMAGEIO_VERSION;
+  json["blender"] = nullptr;
+  if (const auto& blender = findings.blender) {
+    json["blender"] = {{"path", blender->executable.string()},
+                       {"version", blender->version_text},
+                       {"build", blender->build},
+                       {"devices", blender->devices},
+                       {"numpy", blender->has_numpy},
+                       {"denoiser", blender->has_denoiser}};
+  }
+  const Machine& machine = findings.machine;
+  json["threads"] = machine.threads;
+  json["memory_bytes"] = machine.memory_bytes;
+  json["memory_limit_bytes"] =
+      machine.memory_limit_bytes == 0 ? nlohmann::json() : nlohmann::json(machine.memory_limit_bytes);
+  json["temp_folder"] = {{"path", machine.temp_folder.string()}, {"free_bytes", machine.temp_free_bytes}};
+  json["missing"] = nlohmann::json::array();
+  for (const Lack& lack : findings.missing)
+    json["missing"].push_back({{"what", lack.what}, {"remedy", lack.remedy}});
+  return json;
+}
+
+std::string gibibytes(std::uintmax_t bytes) {
+  return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / static_cast<double>(std::uintmax_t{1} << 30));
+}
+
+void write_table(const Findings& findings, std::ostream& out) {
+  const auto line = [&](const char* name, const std::string& value) {
+    out << fmt::format("{:<14}{}\n", name, value);
+  };
+  line("rnmbake", RNMBAKE_VERSION);
+  if (const auto& blender = findings.blender) {
+    line("Blender", fmt::format("{} ({})", blender->version_text, blender->executable.string()));
+    if (!blender->build.empty()) line("  build", blender->build);
+    line("  devices", fmt::format("{}", fmt::join(blender->devices, ", ")));
+    line("  numpy", blender->has_numpy ? "yes" : "no");
+    line("  denoiser", blender->has_denoiser ? "yes (not used for bakes)" : "no (not needed)");
+  } else {
+    line("Blender", "none that can be used");
+  }
+  const Machine& machine = findings.machine;
+  line("OpenImageIO", RNMBAKE_OPENIMAGEIO_VERSION);
+  line("threads", std::to_string(machine.threads));
+  const std::string limit = machine.memory_limit_bytes == 0
+                                ? ""
+                                : fmt::format(", limited to {}", gibibytes(machine.memory_limit_bytes));
+  line("memory", gibibytes(machine.memory_bytes) + limit);
+  line("temp folder",
+       fmt::format("{}, {} free", machine.temp_folder.string(), gibibytes(machine.temp_free_bytes)));
+  for (const Lack& lack : findings.missing)
+    out << fmt::format("\nmissing: {}\n    get: {}\n", lack.what, lack.remedy);
+  if (findings.missing.empty()) out << "\nnothing is missing\n";
+}
+
+}  // namespace
+
+int doctor(const DoctorOptions& options, std::ostream& out) {
+  Findings findings;
+  findings.machine = look_at_machine();
+  look_at_blender(options, findings);
+  look_for_lacks(findings);
+  if (options.json) {
+    // A path need not be UTF-8; JSON must.
+    out << as_json(findings).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  } else {
+    write_table(findings, out);
+  }
+  return static_cast<int>(findings.blender ? ExitCode::ok : ExitCode::environment);
+}
+
+std::function<int()> add_doctor_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("doctor", "what was found on this machine, what is missing, how to get it");
+  const auto options = std::make_shared<DoctorOptions>();
+  command
+      ->add_option("--blender", options->blender,
+                   "Blender to look at, else RNMBAKE_BLENDER, PATH, usual places")
+      ->type_name("PATH");
+  command
+      ->add_option("--scripts", options->scripts,
+                   "run the Blender scripts of this folder, not the built-in ones")
+      ->type_name("DIR");
+  command->add_flag("--json", options->json, "one JSON object instead of the table");
+  return [options] { return doctor(*options, std::cout); };
+}
+
+}  // namespace rnmbake
