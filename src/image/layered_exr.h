@@ -12,7 +12,7 @@
 namespace rnmbake {
 
 /// A header attribute: text, a number, or a list of numbers (written as a float array where the format
-/// has one, read back as the same).
+/// has one, read back as the same). OpenImageIO drops empty texts when it reads.
 using Attribute = std::variant<std::string, int, float, std::vector<float>>;
 
 /// One layer of a file. The layer named "" holds the plain channels R,G,B; any other name becomes
