@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/names.h"
 #include "cli/help_format.h"
+#include "pipeline/workspace.h"
 
 #include <algorithm>
 #include <array>
@@ -78,10 +79,10 @@ struct GlobalFlags {
 
   void add_to(CLI::App& app) {
     app.add_flag("-q,--quiet", quiet, "errors only");
-    verbose = app.add_flag("-v,--verbose", "say more; twice: everything");
+    verbose = app.add_flag("-v,--verbose")->description("say more; twice: everything");
     app.add_option("--log-format", log_format,
                    "diagnostics on stderr as text, or as one JSON object a line (jsonl)")
-        ->check(CLI::IsMember({"text", "jsonl"}))
+        ->check(CLI::IsMember({"text", "jsonl"}).description(""))
         ->type_name("FORMAT");
   }
   void apply() const {
@@ -112,8 +113,9 @@ std::vector<std::string> long_flags(const CLI::App& app) {
 [[noreturn]] void unknown_command(const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.emplace_back(command.name);
-  fail(ExitCode::usage, "unknown command '{}'{}{} commands are {}", word, did_you_mean(word, names),
-       did_you_mean(word, names).empty() ? ";" : "", fmt::join(names, ", "));
+  const std::string hint = did_you_mean(word, names);
+  fail(ExitCode::usage, "unknown command '{}'{}", word,
+       hint.empty() ? fmt::format("; commands are {}", fmt::join(names, ", ")) : hint);
 }
 
 /// CLI11 collects what it does not know; an unknown flag is named before the words that followed it.
@@ -140,7 +142,8 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{purpose, "rnmbake"};
   app.formatter(std::make_shared<HelpFormat>());
   app.footer(examples);
-  app.set_version_flag("--version", "rnmbake " RNMBAKE_VERSION);
+  app.set_version_flag("--version", "rnmbake " RNMBAKE_VERSION, "show the version and end");
+  app.set_help_flag("-h,--help", "show this help and end");
   app.fallthrough()->allow_extras();
   app.require_subcommand(0, 1);
   GlobalFlags globals;
@@ -177,6 +180,9 @@ std::string one_line(std::string text) {
 int run(int argc, const char* const* argv) noexcept {
   try {
     return parse_and_run(argc, argv);
+  } catch (const Interrupted& stop) {
+    log::error("stopped; what was finished before is kept");
+    return 128 + stop.signal;
   } catch (const Error& error) {
     log::error("{}", one_line(error.what()));
     return static_cast<int>(error.code());

@@ -1,6 +1,8 @@
 #include "cli/help_format.h"
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace rnmbake {
 
@@ -35,6 +37,14 @@ std::string wrapped(const std::string& text, std::size_t width) {
     used += word.size();
   }
   return out;
+}
+
+std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+  std::string help = CLI::Formatter::make_help(app, std::move(name), mode);
+  if (const auto usage = help.find("\nUsage:"); usage != std::string::npos) help.insert(usage, "\n");
+  for (auto gap = help.find("\n\n\n"); gap != std::string::npos; gap = help.find("\n\n\n"))
+    help.erase(gap, 1);
+  return help;
 }
 
 std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {

@@ -10,6 +10,7 @@ namespace rnmbake {
 class HelpFormat : public CLI::Formatter {
  public:
   HelpFormat() { column_width(left_column); }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
 

@@ -13,6 +13,20 @@ namespace rnmbake {
 
 namespace {
 
+constexpr const char* epilogue =
+    "Each setting may also stand in a project file (docs/project-file.md) under its table, with _ for -, or "
+    "in\n"
+    "the environment as RNMBAKE_ and its key in capitals. A flag wins over the environment, that over the\n"
+    "project file, that over the default. Lists take commas or the flag several times; in a name that holds\n"
+    "a comma write ? for it.\n"
+    "\n"
+    "Examples:\n"
+    "  rnmbake {0} hall.blend --output lightmaps\n"
+    "  rnmbake {0} hall.blend -o lightmaps --objects 'floor*,wall*' --resolution 512\n"
+    "  rnmbake {0} hall.blend -o lightmaps --texels-per-unit 32 --max-resolution 1024\n"
+    "  rnmbake {0} hall.toml --samples 64           a project file, with one setting changed\n"
+    "  rnmbake {0} hall.toml --print-config         what would hold, and who says so";
+
 std::string value_name(SettingKind kind) {
   switch (kind) {
     case SettingKind::boolean:
@@ -49,17 +63,17 @@ std::string joined(const std::vector<std::string>& parts) {
 }  // namespace
 
 SettingsFlags::SettingsFlags(CLI::App& command) {
-  std::string help = "scene (.blend, .glb, .gltf) or project file (.toml)";
+  command.footer(fmt::format(epilogue, command.get_name()));
+  const std::string help = "scene (.blend, .glb, .gltf) or project file (.toml)";
   scene_ = command.add_option("SCENE", help);
   for (const Setting& setting : settings()) add(command, setting);
-  print_config_ =
-      command.add_flag("--print-config", "show every setting with where its value comes from, and end");
-  print_reference_ =
-      command.add_flag("--print-settings-doc", "the tables of docs/project-file.md")->group("");
+  print_config_ = command.add_flag("--print-config");
+  print_config_->description("show every setting with where its value comes from, and end");
+  print_reference_ = command.add_flag("--print-settings-doc")->group("");  // for docs/project-file.md
 }
 
 void SettingsFlags::add(CLI::App& command, const Setting& setting) {
-  std::string help = help_text(setting);
+  const std::string help = help_text(setting);
   CLI::Option* option = setting.kind == SettingKind::boolean ? command.add_flag(setting.flag_names(), help)
                                                              : command.add_option(setting.flag_names(), help);
   const bool is_list = setting.kind == SettingKind::text_list;
@@ -74,8 +88,10 @@ std::vector<Given> SettingsFlags::given_flags() const {
     if (option->count() == 0) continue;
     const bool is_list = setting->kind == SettingKind::text_list;
     const std::string text = is_list ? joined(option->results()) : option->results().back();
-    const std::string where = "flag " + setting->flag();
-    Given one{setting, parse_value(*setting, text, where), SettingSource::flag, where};
+    std::string where = "flag " + setting->flag();
+    SettingValue value = parse_value(*setting, text, where);
+    if (value == SettingValue(false)) where = "flag --no-" + setting->flag().substr(2);
+    Given one{setting, std::move(value), SettingSource::flag, std::move(where)};
     flags.push_back(std::move(one));
   }
   return flags;

@@ -46,8 +46,9 @@ struct BakingSettings {
   enum class Dispatch { automatic, basis, object, scene };
   enum class Device { cpu, cuda, optix, hip, metal, oneapi };
 
-  std::vector<std::string> bases{"flat", "rnm0", "rnm1", "rnm2"};  // with a basis file: see bases_given
-  bool bases_given = false;     // false and a basis file is set: every vector of that file
+  /// Names out of flat, rnm0, rnm1, rnm2, or out of the basis file. Resolved, it is empty only where a basis
+  /// file is set and all of its vectors are wanted.
+  std::vector<std::string> bases;
   std::filesystem::path basis;  // file with a list of unit vectors; "": RNM
   Recipe recipe = Recipe::receiver;
   bool correct_bump = false;  // flat_normal_map only

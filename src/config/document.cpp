@@ -56,12 +56,13 @@ bool is_numeric(const Setting& setting) {
 /// "0: off", "": the active-render layer".
 std::string meaning(const Setting& setting) {
   if (setting.empty_means.empty()) return "";
-  return fmt::format("{}: {}", is_numeric(setting) ? "0" : "\"\"", setting.empty_means);
+  const std::string_view empty = setting.kind == SettingKind::text_list ? "[]" : "\"\"";
+  return fmt::format("`{}`: {}", is_numeric(setting) ? "0" : empty, setting.empty_means);
 }
 
 std::string markdown_row(const Setting& setting) {
   std::string help(setting.help);
-  if (const std::string special = meaning(setting); !special.empty()) help += fmt::format("; `{}`", special);
+  if (const std::string special = meaning(setting); !special.empty()) help += "; " + special;
   std::string range = range_text(setting);
   if (!setting.unit.empty()) range += fmt::format(" ({})", setting.unit);
   return fmt::format("| `{}` | {} | `{}` | {} | {} | `{}` |\n", setting.key, range,

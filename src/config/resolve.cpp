@@ -32,15 +32,19 @@ void check_limits(const ObjectSettings& object, const std::string& where) {
   }
 }
 
+const std::vector<std::string> rnm{"flat", "rnm0", "rnm1", "rnm2"};
+
+void fill_bases(BakingSettings& bake) {
+  if (bake.bases.empty() && bake.basis.empty()) bake.bases = rnm;
+}
+
 void check_bases(const BakingSettings& bake, const std::string& where) {
-  static const std::vector<std::string> known{"flat", "rnm0", "rnm1", "rnm2"};
-  if (bake.bases.empty()) fail(ExitCode::usage, "{}: 'bases' is empty; give at least one direction", where);
   std::set<std::string> seen;
   for (const std::string& name : bake.bases) {
     // Names from a basis file are checked where that file is read.
-    if (bake.basis.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
-      fail(ExitCode::usage, "{}: unknown basis '{}'; give {}{}", where, name, fmt::join(known, ", "),
-           did_you_mean(name, known));
+    if (bake.basis.empty() && std::find(rnm.begin(), rnm.end(), name) == rnm.end()) {
+      fail(ExitCode::usage, "{}: unknown basis '{}'; give {}{}", where, name, fmt::join(rnm, ", "),
+           did_you_mean(name, rnm));
     }
     if (!seen.insert(name).second) {
       fail(ExitCode::usage, "{}: '{}' stands twice in 'bases'; name it once", where, name);
@@ -132,7 +136,7 @@ ResolvedConfig resolve(const ProjectFile& project, const std::vector<Given>& env
     for (const Given& given : *layer) config.take(given);
   }
   config.let_stronger_resolution_win();
-  config.globals.bake.bases_given = config.provenance("bases") != "default";
+  fill_bases(config.globals.bake);
   config.overrides_ = project.overrides;
   config.check_together();
   return config;

@@ -188,7 +188,8 @@ std::vector<Setting> make_table() {
       bake("max_resolution", &Object::max_resolution, "greatest side that texels_per_unit may choose")
           .range(4, 16384)
           .unit("texels"),
-      bake("bases", &Bake::bases, "directions to bake: flat, rnm0, rnm1, rnm2 or those of the basis file"),
+      bake("bases", &Bake::bases, "directions to bake")
+          .empty_means("flat, rnm0, rnm1, rnm2; with a basis file: all of its vectors"),
       bake("basis", &Bake::basis, "TOML file with a list of unit vectors to bake instead of RNM's")
           .empty_means("flat and the three vectors of RNM"),
       bake("recipe", &Bake::recipe,
