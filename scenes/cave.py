@@ -9,7 +9,7 @@ from mathutils import Vector, noise
 import kit
 
 HALF = Vector((4.0, 8.0, 3.6))
-SKYLIGHTS = ((Vector((0.05, 0.3, 1.0)).normalized(), 0.26), (Vector((-0.5, 0.86, 0.2)).normalized(), 0.2))
+SKYLIGHTS = ((Vector((0.05, 0.3, 1.0)).normalized(), 0.3), (Vector((-0.5, 0.86, 0.2)).normalized(), 0.2))
 FLOOR = -2.1
 
 
@@ -125,11 +125,11 @@ def _sandstone(albedo):
 
 
 def build(detail=6, albedo=0.7):
-    kit.start(exposure=0.35)
+    kit.start(exposure=0.75, look="Medium High Contrast")
     mesh, units = _mesh(detail)
     _detail_uv(mesh)
     _lightmap_uv(mesh, units)
     kit.add_object("cave", mesh, [_sandstone(albedo)])
-    kit.sun((-0.05, -0.06, 1.0), 20.0, (1.0, 0.87, 0.68), size=0.5)
-    kit.world((0.4, 0.62, 1.0), 6.0)
+    kit.sun((-0.2, -0.02, 1.0), 11.0, (1.0, 0.87, 0.68), size=0.5)
+    kit.world((0.4, 0.62, 1.0), 4.0)
     kit.camera((-0.7, -5.0, -0.9), (0.75, 2.0, -0.1), lens=22)

@@ -40,7 +40,7 @@ def _props():
 
 
 def build(radiance=14.0):
-    kit.start(exposure=0.1, look="Medium High Contrast")
+    kit.start(exposure=0.55, look="Medium High Contrast")
     _walls()
     _props()
     lamp = kit.Builder(margin=0.0)
