@@ -29,6 +29,8 @@ class MeshFile:
 
     def _append(self, mesh):
         mesh.calc_loop_triangles()
+        if not hasattr(mesh, "corner_normals"):  # before 4.1
+            mesh.calc_normals_split()  # adds a layer: those taken hold of before it are no longer valid
         loops, polygons, triangles = len(mesh.loops), len(mesh.polygons), len(mesh.loop_triangles)
         uv_layers = list(mesh.uv_layers)
         self.entries.append({
@@ -58,9 +60,8 @@ class MeshFile:
         return offset
 
     def _write_normals(self, mesh):
-        if hasattr(mesh, "corner_normals"):  # >= 4.1
+        if hasattr(mesh, "corner_normals"):
             return self._write(mesh.corner_normals, "vector", "f", 3)
-        mesh.calc_normals_split()
         return self._write(mesh.loops, "normal", "f", 3)
 
     def _write_uv(self, layer):

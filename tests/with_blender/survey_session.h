@@ -1,0 +1,78 @@
+// tests/with_blender/survey_session.h - builds a scene with the installed Blender and surveys it.
+#pragma once
+
+#include "base/error.h"
+#include "base/files.h"
+#include "blender/find.h"
+#include "blender/probe.h"
+#include "blender/real_blender.h"
+#include "process/run.h"
+#include "scene/survey.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+class SurveySession {
+ public:
+  SurveySession()
+      : blender_(probe_version(find_blender()),
+                 RealBlender::Options{{}, std::filesystem::path(RNMBAKE_SOURCE_DIR "/blender_scripts")}) {}
+
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
+  [[nodiscard]] const BlenderInfo& info() const { return blender_.info(); }
+
+  /// Runs tests/with_blender/scenes/`script` in Blender.
+  void build(const std::string& script, const std::vector<std::string>& arguments) {
+    ProcessOptions options;
+    options.argv = {info().executable.string(),
+                    "-b",
+                    "--factory-startup",
+                    "-noaudio",
+                    "--python-exit-code",
+                    "86",
+                    "--python",
+                    scenes + script,
+                    "--"};
+    options.argv.insert(options.argv.end(), arguments.begin(), arguments.end());
+    const ProcessResult result = run_process(options);
+    if (!result.succeeded()) fail(ExitCode::tasks_failed, "{}: {}", script, result.output);
+  }
+
+  LaunchOutcome launch(const std::filesystem::path& scene) {
+    Launch launch;
+    launch.entry = "survey_entry.py";
+    if (scene.extension() == ".blend") launch.scene = scene;
+    launch.request = {{"scene", scene.string()}};
+    launch.folder = folder_.path() / ("launch" + std::to_string(launches_++));
+    std::filesystem::create_directory(launch.folder);
+    last_folder_ = launch.folder;
+    return blender_.run(launch, LaunchLimits{}, [](const ProgressEvent&) {});
+  }
+
+  Survey survey(const std::filesystem::path& scene) {
+    const LaunchOutcome outcome = launch(scene);
+    if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
+      fail(ExitCode::tasks_failed, "{} {}", failure->message, failure->details);
+    }
+    return read_survey(last_folder_ / std::get<Finished>(outcome).result.at("survey").get<std::string>());
+  }
+
+ private:
+  const std::string scenes = RNMBAKE_SOURCE_DIR "/tests/with_blender/scenes/";
+  TempFolder folder_;
+  std::filesystem::path last_folder_;
+  RealBlender blender_;
+  int launches_ = 0;
+};
+
+inline const SceneObject* find_object(const Survey& survey, const std::string& key) {
+  const auto found = std::find_if(survey.objects.begin(), survey.objects.end(),
+                                  [&](const SceneObject& object) { return object.key == key; });
+  return found == survey.objects.end() ? nullptr : &*found;
+}
+
+}  // namespace rnmbake
