@@ -8,14 +8,13 @@
 #include "lightmap/decode.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -24,22 +23,25 @@ namespace {
 
 struct DecodeOptions {
   std::filesystem::path lightmap, normal_map, output;
-  std::array<float, 3> normal_vector{0, 0, 1};
-  DecodeVariant variant = DecodeVariant::squared;
-  std::optional<Green> normal_green;  // none: not said, taken as y-up
+  std::vector<float> normal_vector;               // three numbers, unless there is a normal map
+  std::string variant = "squared", normal_green;  // no green: not said, taken as y-up
   bool flip_green = false, force = false;
   float exposure = 0;
 };
 
-const std::map<std::string, DecodeVariant> variants{{"squared", DecodeVariant::squared},
-                                                    {"linear", DecodeVariant::linear},
-                                                    {"vrad", DecodeVariant::vrad},
-                                                    {"single", DecodeVariant::single}};
-const std::map<std::string, Green> greens{{"y-up", Green::y_up}, {"y-down", Green::y_down}};
+DecodeVariant variant_of(const DecodeOptions& options) {
+  for (const auto variant : {DecodeVariant::linear, DecodeVariant::vrad, DecodeVariant::single})
+    if (options.variant == name_of(variant)) return variant;
+  return DecodeVariant::squared;
+}
+
+Green green_of(const DecodeOptions& options) {
+  return options.normal_green == "y-down" ? Green::y_down : Green::y_up;
+}
 
 [[noreturn]] void refuse(const DecodeOptions& options, const std::string& why, const std::string& remedy) {
   fail(ExitCode::unsupported, "{} does not fit the {} decode: {}; {}", options.lightmap.string(),
-       name_of(options.variant), why, remedy);
+       options.variant, why, remedy);
 }
 
 /// A header that cannot be relied on, taken for what rnmbake writes by default.
@@ -70,26 +72,26 @@ LightmapMetadata metadata_of(const DecodeOptions& options, const LayeredImage& i
 }
 
 void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
-  if (const auto why = decode_obstacle(metadata, options.variant)) {
+  if (const auto why = decode_obstacle(metadata, variant_of(options))) {
     if (!options.force) refuse(options, *why, "choose another --variant, or add --force");
     log::warn("{}: {}; decoded all the same", options.lightmap.string(), *why);
   }
-  const bool uses_normal = options.variant != DecodeVariant::single;
-  if (uses_normal && !options.normal_green && metadata.green == Green::y_down && !options.force) {
+  const bool uses_normal = variant_of(options) != DecodeVariant::single;
+  if (uses_normal && options.normal_green.empty() && metadata.green == Green::y_down && !options.force) {
     refuse(options, "it was baked for y-down normal maps and the normals are taken as y-up",
            "say --normal-green y-down (or --flip-green) or --normal-green y-up");
   }
 }
 
 FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
-  const Green green = options.normal_green.value_or(Green::y_up);
+  const DecodeVariant variant = variant_of(options);
   if (options.normal_map.empty()) {
-    const auto& [x, y, z] = options.normal_vector;
-    return decode(std::move(lightmap), Vec3(x, y, z), green, options.variant);
+    const auto& n = options.normal_vector;
+    return decode(std::move(lightmap), Vec3(n[0], n[1], n[2]), green_of(options), variant);
   }
   const LayeredImage picture = read_image(options.normal_map);
-  return decode(std::move(lightmap), NormalMap{normals_of(picture, options.normal_map.string()), green},
-                options.variant);
+  const NormalMap normals{normals_of(picture, options.normal_map.string()), green_of(options)};
+  return decode(std::move(lightmap), normals, variant);
 }
 
 std::string extension_of(const std::filesystem::path& file) {
@@ -106,9 +108,17 @@ void write(const DecodeOptions& options, FloatImage&& picture) {
   for (float& value : picture.data()) value *= gain;
   LayeredImage image;
   image.layers.push_back({"", {"R", "G", "B"}, std::move(picture)});
-  image.attributes["rnmbake:decoded"] = std::string(name_of(options.variant));
+  image.attributes["rnmbake:decoded"] = options.variant;
   image.attributes["rnmbake:exposure"] = options.exposure;
   write_exr(options.output, image, Depth::full);
+}
+
+void check_vector(const std::vector<float>& n) {
+  if (n.empty()) fail(ExitCode::usage, "decode needs normals; give --normal FILE or --normal-vector X,Y,Z");
+  const float length = n.size() == 3 ? Vec3(n[0], n[1], n[2]).length() : 0;
+  if (length > 0 && std::isfinite(length)) return;
+  fail(ExitCode::usage, "--normal-vector {} is not a direction; give three numbers such as 0,0,1",
+       fmt::join(n, ","));
 }
 
 void check_options(DecodeOptions& options) {
@@ -116,12 +126,8 @@ void check_options(DecodeOptions& options) {
   if (extension != ".exr" && extension != ".png") {
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", options.output.string());
   }
-  const auto& [x, y, z] = options.normal_vector;
-  const float length = Vec3(x, y, z).length();
-  if (!(length > 0) || !std::isfinite(length)) {
-    fail(ExitCode::usage, "--normal-vector {},{},{} has no direction; give x,y,z such as 0,0,1", x, y, z);
-  }
-  if (options.flip_green) options.normal_green = Green::y_down;
+  if (options.normal_map.empty()) check_vector(options.normal_vector);
+  if (options.flip_green) options.normal_green = "y-down";
 }
 
 int run(DecodeOptions options) {
@@ -133,44 +139,56 @@ int run(DecodeOptions options) {
   return static_cast<int>(ExitCode::ok);
 }
 
+void add_pictures(CLI::App& command, DecodeOptions& options) {
+  command.add_option("lightmap", options.lightmap, "a lightmap that rnmbake wrote (.exr)")
+      ->required()
+      ->type_name("FILE");
+  auto* normal_map =
+      command
+          .add_option("--normal", options.normal_map,
+                      "tangent-space normal map (.png, .jpg, .exr, ...) in the lightmap's UV layout")
+          ->type_name("FILE");
+  command
+      .add_option("--normal-vector", options.normal_vector,
+                  "or one tangent-space normal for all texels, such as 0,0,1")
+      ->delimiter(',')
+      ->type_name("X,Y,Z")
+      ->excludes(normal_map);
+  command
+      .add_option("-o,--output", options.output,
+                  "what to write: .exr (E/pi, float) or .png (to look at: clamped to [0,1] and sRGB-encoded)")
+      ->required()
+      ->type_name("FILE");
+}
+
+void add_meaning(CLI::App& command, DecodeOptions& options) {
+  command
+      .add_option(
+          "--variant", options.variant,
+          "squared: sum w LM / sum w, w = sat(dot)^2; linear: sum sat(dot) LM; vrad: squared on maps "
+          "scaled to the flat bake; single: the flat bake [squared]. Of maps baked without --normalize flat, "
+          "squared returns 0.789 of a uniform sky and 0.577 of an overhead sun for a flat normal")
+      ->check(CLI::IsMember({"squared", "linear", "vrad", "single"}).description(""))
+      ->type_name("squared|linear|vrad|single");
+  auto* green =
+      command.add_option("--normal-green", options.normal_green, "where the normals' green points [y-up]")
+          ->check(CLI::IsMember({"y-up", "y-down"}).description(""))
+          ->type_name("y-up|y-down");
+  command
+      .add_flag("--flip-green", options.flip_green,
+                "the normals are y-down (Unreal, Source), as --normal-green y-down")
+      ->excludes(green);
+}
+
 }  // namespace
 
 std::function<int()> add_decode_command(CLI::App& app) {
   auto options = std::make_shared<DecodeOptions>();
-  CLI::App* command = app.add_subcommand("decode", "Light a normal map with a lightmap, as a shader would");
-  command->add_option("lightmap", options->lightmap, "a lightmap that rnmbake wrote (.exr)")->required();
-  auto* normals = command->add_option_group("normals");
-  normals->add_option("--normal", options->normal_map,
-                      "tangent-space normal map (.png, .jpg, .exr, ...) of the lightmap's UV layout");
-  normals
-      ->add_option("--normal-vector", options->normal_vector,
-                   "one tangent-space normal for all texels: x,y,z")
-      ->delimiter(',');
-  normals->require_option(1);
-  command
-      ->add_option(
-          "-o,--output", options->output,
-          "what to write: .exr (E/pi, float) or .png (to look at: clamped to [0,1] and sRGB-encoded)")
-      ->required();
-  command
-      ->add_option("--variant", options->variant,
-                   "squared: sum w LM / sum w, w = sat(dot)^2; linear: sum sat(dot) LM; vrad: squared on "
-                   "maps scaled to the "
-                   "flat bake; single: the flat bake. Unless the lightmap was baked with --normalize flat, "
-                   "squared returns "
-                   "0.789 of a uniform sky and 0.577 of an overhead sun for a flat normal")
-      ->transform(CLI::CheckedTransformer(variants))
-      ->option_text("squared|linear|vrad|single [squared]");
-  auto* green =
-      command->add_option("--normal-green", options->normal_green, "where the normals' green points [y-up]")
-          ->transform(CLI::CheckedTransformer(greens))
-          ->option_text("y-up|y-down");
-  command
-      ->add_flag("--flip-green", options->flip_green,
-                 "the normals are y-down (Unreal, Source): --normal-green y-down")
-      ->excludes(green);
-  command->add_option("--exposure", options->exposure, "multiply the result by 2^EXPOSURE [0]")
-      ->option_text("STOPS");
+  CLI::App* command = app.add_subcommand("decode", "light a normal map with a lightmap, as a shader would");
+  add_pictures(*command, *options);
+  add_meaning(*command, *options);
+  command->add_option("--exposure", options->exposure, "multiply the result by 2^STOPS [0]")
+      ->type_name("STOPS");
   command->add_flag("--force", options->force, "decode although the header says that the maps do not fit");
   return [options] { return run(*options); };
 }
