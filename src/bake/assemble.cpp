@@ -178,7 +178,8 @@ TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles
   if (geometry) {
     const HorizonIdentity identity(*geometry, moments);
     for (std::size_t b = 0; b < bases.size(); ++b) {
-      if (below[b]) identity.apply(*below[b], above[b], bases[b].direction, result.bases[b].radiance);
+      if (below[b])
+        identity.apply(*below[b], above[b], in_frame(bases[b].direction, target), result.bases[b].radiance);
     }
   }
   if (geometry && frames) fill_frames(*geometry, result);

@@ -213,10 +213,10 @@ BakeRequest object_request(const BakeContext& context, const Dispatch& dispatch,
     auto [entry, is_new] = described.try_emplace(tile.target);
     if (is_new) entry->second = describe_target(context, tile.target, folder);
     const BasisDirection& basis = context.bases[tile.sheet.basis];
-    entry->second["bakes"].push_back(
-        {{"basis", basis.name},
-         {"direction", {basis.direction.x, basis.direction.y, basis.direction.z}},
-         {"pixels", pixels_name(i)}});
+    const Vec3 direction = in_frame(basis.direction, context.targets[tile.target]);
+    entry->second["bakes"].push_back({{"basis", basis.name},
+                                      {"direction", {direction.x, direction.y, direction.z}},
+                                      {"pixels", pixels_name(i)}});
   }
   request.json["targets"] = json::array();
   for (auto& [index, description] : described) request.json["targets"].push_back(std::move(description));

@@ -116,7 +116,7 @@ int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
 std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
                              ObjectSettings::Split mode) {
   std::vector<std::uint32_t> label(mesh.triangles(), 0);
-  if (mode == ObjectSettings::Split::loose) label = loose_parts(mesh).part;
+  if (mode == ObjectSettings::Split::loose) label = loose_parts(mesh);
   if (mode == ObjectSettings::Split::material) {
     for (std::size_t t = 0; t < label.size(); ++t) label[t] = mesh.polygon_slot[mesh.triangle_polygon[t]];
   }

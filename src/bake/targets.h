@@ -56,7 +56,13 @@ struct Target {
   std::string uv_layer;       // name; "Lightmap" where it was unwrapped
   std::string tangent_layer;  // name; the lightmap layer's where the object has no other
   bool unwrapped = false;
+  bool flip_green = false;  // basis y points along falling v, for normal maps with Y down
   int width = 0, height = 0;
 };
+
+/// A basis vector in the right-handed, Y-up frame of scene/tangents.h, whatever the target's green channel.
+[[nodiscard]] inline Vec3 in_frame(const Vec3& basis, const Target& target) {
+  return {basis.x, target.flip_green ? -basis.y : basis.y, basis.z};
+}
 
 }  // namespace rnmbake

@@ -49,18 +49,30 @@ constexpr const char* examples =
     "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"
     "4 no usable Blender, 5 unsupported, 6 some objects failed, 7 threshold exceeded, 8 locked.";
 
+constexpr const char* about_bake =
+    "\n\nFor every render-enabled object that has faces, Blender bakes the light that arrives along the\n"
+    "plain normal and along each vector of the basis; the results are merged into one EXR for each\n"
+    "object, beside a manifest.json that says what was baked, how and with what. The scene file itself\n"
+    "is never changed. Settings that matter most: --objects, --resolution or --texels-per-unit,\n"
+    "--samples, --output.";
+
+constexpr const char* about_inspect =
+    "\n\nSays what `rnmbake bake` with the same settings would bake and at which size, and what in the\n"
+    "scene would get in its way; nothing is baked or written.";
+
 struct Command {
   const char* name;
   std::function<int()> (*add)(CLI::App&);
+  const char* about = "";  // follows the command's own line in its --help
 };
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all {
 #if __has_include("cli/bake.h")
-    {"bake", add_bake_command},
+    {"bake", add_bake_command, about_bake},
 #endif
 #if __has_include("cli/inspect.h")
-        {"inspect", add_inspect_command},
+        {"inspect", add_inspect_command, about_inspect},
 #endif
 #if __has_include("cli/doctor.h")
         {"doctor", add_doctor_command},
@@ -151,7 +163,8 @@ int parse_and_run(int argc, const char* const* argv) {
   std::vector<std::function<int()>> actions;
   for (const Command& command : commands()) {
     actions.push_back(command.add(app));
-    app.get_subcommand(command.name)->allow_extras(false);
+    CLI::App* added = app.get_subcommand(command.name);
+    added->allow_extras(false)->description(added->get_description() + command.about);
   }
 
   try {

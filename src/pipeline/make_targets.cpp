@@ -114,6 +114,7 @@ class TargetMaker {
       target.key = part.name.empty() ? object.key : object.key + "/" + part.name;
       target.uv = candidate.uv;
       target.unwrapped = !candidate.lightmap;
+      target.flip_green = candidate.settings.flip_green;
       target.uv_layer = candidate.lightmap ? layer_name(*candidate.lightmap) : unwrapped_layer;
       target.tangent_uv = candidate.tangent ? layer_uvs(mesh, *candidate.tangent) : candidate.uv;
       target.tangent_layer = candidate.tangent ? layer_name(*candidate.tangent) : target.uv_layer;
