@@ -1,25 +1,25 @@
 // base/error.h - the one exception type of the program and its exit codes.
 #pragma once
 
-#include <spdlog/fmt/fmt.h>
-
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
 
 /// What the process returns; documented in docs/exit-codes.md. Signals add 128 (130 SIGINT, 143 SIGTERM).
 enum class ExitCode {
   ok = 0,
-  usage = 1,              // a flag, key or value that does not exist or does not fit
-  io = 2,                 // a file cannot be read or written
-  invalid_input = 3,      // a file was read but what it holds cannot be baked
-  environment = 4,        // no Blender, one too old, a part of it missing
-  unsupported = 5,        // understood, but not something that this build can do
-  tasks_failed = 6,       // some objects failed; the rest was delivered
-  threshold_exceeded = 7, // a comparison went past --fail-above
-  lock_held = 8,          // another rnmbake writes to the same folder
+  usage = 1,               // a flag, key or value that does not exist or does not fit
+  io = 2,                  // a file cannot be read or written
+  invalid_input = 3,       // a file was read but what it holds cannot be baked
+  environment = 4,         // no Blender, one too old, a part of it missing
+  unsupported = 5,         // understood, but not something that this build can do
+  tasks_failed = 6,        // some objects failed; the rest was delivered
+  threshold_exceeded = 7,  // a comparison went past --fail-above
+  lock_held = 8,           // another rnmbake writes to the same folder
 };
 
 /// A failure that the user can act upon. The message names the file or object, says what is wrong and

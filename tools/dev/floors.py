@@ -13,7 +13,8 @@ FLOORS = {
     "base": 0,
     "basis": 1, "image": 1, "scene": 1, "config": 1, "process": 1,
     "blender": 2, "bake": 2, "lightmap": 2, "trace": 2, "ssbump": 2, "jobs": 2, "report": 2,
-    "cli": 3,
+    "pipeline": 3,
+    "cli": 4,
 }
 OWNED = {
     "OpenImageIO/": {"image"},
