@@ -19,7 +19,7 @@ FLOORS = {
 OWNED = {
     "OpenImageIO/": {"image"},
     "OpenEXR/": {"image"},
-    "toml++/": {"config"},
+    "toml++/": {"config", "cli"},
     "CLI/": {"cli"},
     "embree": {"trace"},
     "tbb/": {"trace", "ssbump"},
