@@ -1,0 +1,66 @@
+#include "cli/inspect.h"
+
+#include "base/error.h"
+#include "blender/find.h"
+#include "blender/real_blender.h"
+#include "cli/inspect_scene.h"
+#include "cli/inspect_write.h"
+#include "cli/settings_flags.h"
+#include "pipeline/scene_survey.h"
+#include "process/stop.h"
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+namespace rnmbake {
+namespace {
+
+struct InspectFlags {
+  explicit InspectFlags(CLI::App& command) : settings(command) {
+    command.add_flag("--json", json, "one JSON object instead of the table");
+  }
+  SettingsFlags settings;
+  bool json = false;
+};
+
+RealBlender make_blender(const BakeSettings& settings) {
+  RealBlender::Options options;
+  options.trust.allow_scripts = settings.scene.allow_scripts;
+  if (!settings.run.scripts.empty()) options.scripts = settings.run.scripts;
+  const std::string& wanted = settings.run.blender;
+  return {probe_version(find_blender(wanted.empty() ? std::nullopt : std::optional(wanted))), options};
+}
+
+void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
+  config.globals.scene.materials = SceneSettings::Materials::full;  // look at the scene as it is
+  RealBlender blender = make_blender(config.globals);
+  Workspace workspace(config, blender);
+  Survey survey = survey_scene(workspace).survey;
+  survey.scene_file = config.globals.scene.file.string();
+  const Inspection inspection = inspect_scene(survey, config);
+  if (as_json) {
+    out << inspection_json(survey, inspection).dump(2) << '\n';
+  } else {
+    write_inspection(survey, inspection, out);
+  }
+}
+
+}  // namespace
+
+std::function<int()> add_inspect_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("inspect", "what is in a scene, and what would be baked at which size");
+  const auto flags = std::make_shared<InspectFlags>(*command);
+  return [flags] {
+    const auto config = flags->settings.resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    inspect(*config, flags->json, std::cout);
+    return static_cast<int>(ExitCode::ok);
+  };
+}
+
+}  // namespace rnmbake

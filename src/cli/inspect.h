@@ -1,0 +1,16 @@
+// cli/inspect.h - the command `rnmbake inspect`: what is in a scene, and what a bake would make of it.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace rnmbake {
+
+/// Adds the subcommand to `app`; the returned function runs it with the options that were parsed.
+/// It knows every flag of `bake`, since they decide what would be baked.
+[[nodiscard]] std::function<int()> add_inspect_command(CLI::App& app);
+
+}  // namespace rnmbake

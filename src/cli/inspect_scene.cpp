@@ -1,0 +1,89 @@
+#include "cli/inspect_scene.h"
+
+#include "bake/targets.h"
+#include "base/error.h"
+
+#include <cstdint>
+#include <numeric>
+
+namespace rnmbake {
+namespace {
+
+constexpr double packing_guess = 0.6;  // share of the square that charts fill after unwrapping
+
+std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
+  std::vector<std::uint32_t> triangles(mesh.triangles());
+  std::iota(triangles.begin(), triangles.end(), std::uint32_t{0});
+  return triangles;
+}
+
+const UvLayer& layer_of(const Mesh& mesh, int layer) {
+  return mesh.uv_layers[static_cast<std::size_t>(layer)];
+}
+
+std::vector<std::string> uv_problems(const UvReport& uv) {
+  std::vector<std::string> problems;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) problems.push_back(fmt::format("{} {}", count, what));
+  };
+  add(uv.overlap_texels, "texels overlap");
+  add(static_cast<std::size_t>(uv.outside_texels + 0.5), "texels outside [0,1]");
+  add(uv.degenerate_uv, "triangles without UV area");
+  add(uv.degenerate_world, "triangles without area");
+  add(uv.mirrored_charts, "mirrored charts");
+  return problems;
+}
+
+void look_at_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
+  const Mesh& mesh = *inspected.mesh;
+  const SceneObject& object = *inspected.object;
+  const UvChoice choice = choose_lightmap_uv(mesh, settings, object.key);
+  if (const auto tangent = choose_tangent_uv(mesh, settings, object.key))
+    inspected.tangent_layer = layer_of(mesh, *tangent).name;
+  if (!choice.layer) {
+    const std::vector<Vec2> none(mesh.loop_vertex.size(), Vec2(0));
+    const double world = areas(mesh, all_triangles(mesh), none, object.to_world).world;
+    inspected.resolution = choose_resolution(settings, {world, packing_guess});
+    inspected.problems.push_back("would be unwrapped: " + choice.reason);
+    return;
+  }
+  const UvLayer& layer = layer_of(mesh, *choice.layer);
+  inspected.lightmap_layer = layer.name;
+  inspected.resolution =
+      choose_resolution(settings, areas(mesh, all_triangles(mesh), layer.uv, object.to_world));
+  inspected.uv = report_uv(mesh, layer.uv, object.to_world, inspected.resolution, inspected.resolution);
+  inspected.problems = uv_problems(*inspected.uv);
+}
+
+InspectedObject inspect_object(const Survey& survey, const SceneObject& object,
+                               const ResolvedConfig& config) {
+  InspectedObject inspected;
+  inspected.object = &object;
+  inspected.mesh = &survey.mesh_of(object);
+  if (!config.selects(object.name, object.key)) inspected.not_baked = "not selected";
+  if (inspected.mesh->triangles() == 0) inspected.not_baked = "no faces";
+  if (!inspected.not_baked.empty()) return inspected;
+  try {
+    const ObjectSettings settings = config.for_object(object.name, object.key);
+    look_at_uvs(inspected, settings);
+    inspected.parts = split_mesh(*inspected.mesh, object.slots, settings.split).size();
+  } catch (const Error& error) {  // a bake would stop here; inspecting goes on
+    if (error.code() == ExitCode::usage) throw;
+    inspected.not_baked = error.what();
+  }
+  return inspected;
+}
+
+}  // namespace
+
+Inspection inspect_scene(const Survey& survey, const ResolvedConfig& config) {
+  Inspection inspection;
+  for (const SceneObject& object : survey.objects)
+    inspection.objects.push_back(inspect_object(survey, object, config));
+  for (const auto& [name, material] : survey.materials) {
+    if (!material.outside_model.empty()) inspection.outside_model.push_back(&material);
+  }
+  return inspection;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,157 @@
+#include "cli/inspect_write.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+namespace rnmbake {
+namespace {
+
+using nlohmann::json;
+
+/// Columns as wide as their widest cell; the last one is free.
+class Table {
+ public:
+  using Row = std::vector<std::string>;
+  void add(Row row) { rows_.push_back(std::move(row)); }
+  void write(std::ostream& out) const {
+    std::vector<std::size_t> widths;
+    for (const Row& row : rows_) {
+      widths.resize(std::max(widths.size(), row.size()));
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+    }
+    for (const Row& row : rows_) {
+      std::string line;
+      for (std::size_t i = 0; i < row.size(); ++i)
+        line += row[i] + std::string(widths[i] - width(row[i]) + 2, ' ');
+      out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+    }
+  }
+
+ private:
+  /// Characters of UTF-8, which is near enough to what a terminal shows.
+  static std::size_t width(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  }
+  std::vector<Row> rows_;
+};
+
+std::string layer_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const UvLayer& layer : mesh.uv_layers) names.push_back(layer.name);
+  return names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+Table::Row row_of(const InspectedObject& object) {
+  Table::Row row{object.object->key, object.object->type, std::to_string(object.mesh->triangles()),
+                 layer_names(*object.mesh)};
+  if (!object.not_baked.empty()) {
+    row.insert(row.end(), {"-", "-", "-", "not baked: " + object.not_baked});
+    return row;
+  }
+  const std::string size = fmt::format("{0} x {0}", object.resolution);
+  row.push_back(object.lightmap_layer.empty() ? "(unwrap)" : object.lightmap_layer);
+  row.push_back(object.parts == 1 ? size : fmt::format("{} parts", object.parts));
+  row.push_back(object.uv ? fmt::format("{:.3g}", object.uv->density.median) : "-");
+  row.push_back(fmt::format("{}", fmt::join(object.problems, "; ")));
+  return row;
+}
+
+void write_lights(const Survey& survey, std::ostream& out) {
+  for (const LightInfo& light : survey.lights) {
+    out << fmt::format("light     {} ({}, {:g})", light.name, light.type, light.energy);
+    if (!light.outside_model.empty()) out << ": " << fmt::format("{}", fmt::join(light.outside_model, ", "));
+    out << '\n';
+  }
+  out << fmt::format("world     {}", survey.world);
+  if (survey.world != "none") out << fmt::format(" ({:g})", survey.world_strength);
+  out << '\n';
+}
+
+json uv_json(const UvReport& uv) {
+  return {
+      {"charts", uv.charts},
+      {"mirrored_charts", uv.mirrored_charts},
+      {"covered_texels", uv.covered_texels},
+      {"overlap_texels", uv.overlap_texels},
+      {"outside_texels", uv.outside_texels},
+      {"outside_corners", uv.outside_corners},
+      {"degenerate_uv_triangles", uv.degenerate_uv},
+      {"degenerate_triangles", uv.degenerate_world},
+      {"uv_area", uv.uv_area},
+      {"world_area", uv.world_area},
+      {"texels_per_unit", {{"min", uv.density.min}, {"median", uv.density.median}, {"max", uv.density.max}}}};
+}
+
+json object_json(const InspectedObject& object) {
+  json layers = json::array();
+  for (const UvLayer& layer : object.mesh->uv_layers) layers.push_back(layer.name);
+  json result{{"key", object.object->key},
+              {"name", object.object->name},
+              {"instancer", object.object->instancer},
+              {"type", object.object->type},
+              {"triangles", object.mesh->triangles()},
+              {"uv_layers", layers},
+              {"material_slots", object.object->slots},
+              {"baked", object.not_baked.empty()},
+              {"problems", object.problems}};
+  if (!object.not_baked.empty()) {
+    result["not_baked"] = object.not_baked;
+    return result;
+  }
+  result["lightmap_layer"] = object.lightmap_layer.empty() ? json() : json(object.lightmap_layer);
+  result["tangent_layer"] = object.tangent_layer.empty() ? json() : json(object.tangent_layer);
+  result["resolution"] = object.resolution;
+  result["parts"] = object.parts;
+  result["uv"] = object.uv ? uv_json(*object.uv) : json();
+  return result;
+}
+
+json light_json(const LightInfo& light) {
+  return {{"name", light.name},
+          {"type", light.type},
+          {"energy", light.energy},
+          {"color", light.color},
+          {"outside_model", light.outside_model}};
+}
+
+}  // namespace
+
+void write_inspection(const Survey& survey, const Inspection& inspection, std::ostream& out) {
+  Table table;
+  table.add({"OBJECT", "TYPE", "TRIANGLES", "UV LAYERS", "LIGHTMAP", "SIZE", "TEXELS/UNIT", "PROBLEMS"});
+  for (const InspectedObject& object : inspection.objects) table.add(row_of(object));
+  table.write(out);
+  out << '\n';
+  write_lights(survey, out);
+  for (const MaterialInfo* material : inspection.outside_model) {
+    out << fmt::format("material  {}: beyond diffuse and emission: {}\n", material->name,
+                       fmt::join(material->outside_model, ", "));
+  }
+}
+
+nlohmann::json inspection_json(const Survey& survey, const Inspection& inspection) {
+  json result{
+      {"schema_version", 1},
+      {"scene", survey.scene_file},
+      {"blender", survey.blender_version},
+      {"objects", json::array()},
+      {"lights", json::array()},
+      {"materials", json::array()},
+      {"world", {{"kind", survey.world}, {"strength", survey.world_strength}, {"color", survey.world_color}}},
+      {"warnings", survey.warnings}};
+  for (const InspectedObject& object : inspection.objects) result["objects"].push_back(object_json(object));
+  for (const LightInfo& light : survey.lights) result["lights"].push_back(light_json(light));
+  for (const auto& [name, material] : survey.materials) {
+    result["materials"].push_back({{"name", name},
+                                   {"normal_mapped", material.normal_mapped},
+                                   {"emissive", material.emissive},
+                                   {"outside_model", material.outside_model}});
+  }
+  return result;
+}
+
+}  // namespace rnmbake
