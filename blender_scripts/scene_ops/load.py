@@ -69,7 +69,7 @@ def mend_numpy():
 
 def last_line(error):
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return lines[-1] if lines else repr(error)
+    return lines[-1].replace("Error: ", "", 1) if lines else repr(error)
 
 
 def leave_edit_mode():
@@ -111,8 +111,8 @@ def refuse_blocked_scripts(task):
     if task.request.get("allow_scripts") or not bpy.app.autoexec_fail:
         return
     owner = scripted_driver_owner()
-    what = f"{owner}: " if owner else ""
-    raise Refusal(f"{what}embedded scripts or drivers are blocked ({bpy.app.autoexec_fail_message}) and the bake "
+    what = f"object or data {owner!r}" if owner else os.path.basename(task.request["scene"])
+    raise Refusal(f"{what}: embedded scripts or drivers are blocked ({bpy.app.autoexec_fail_message}) and the bake "
                   "would silently be wrong; pass --allow-scripts if you trust the file", INVALID_INPUT, owner)
 
 

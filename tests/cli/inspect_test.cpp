@@ -1,0 +1,90 @@
+#include "cli/inspect_scene.h"
+#include "cli/inspect_write.h"
+#include "scene/test_meshes.h"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+/// Three objects on two meshes: one with two UV layers, one without faces.
+Survey small_survey() {
+  Survey survey;
+  survey.scene_file = "a.blend";
+  survey.meshes = {square(), Mesh{}};
+  survey.meshes[0].uv_layers = {{"UVMap", square_uv()}, {"Second", square_uv()}};
+  survey.meshes[0].active_uv = survey.meshes[0].render_uv = 0;
+  for (const auto& [key, mesh] : {std::pair{"wall", 0}, {"Säule", 0}, {"empty", 1}}) {
+    SceneObject object;
+    object.key = object.name = key;
+    object.type = "MESH";
+    object.mesh = mesh;
+    survey.objects.push_back(object);
+  }
+  survey.materials = {{"chrome", {"chrome", false, false, {"glossy"}}},
+                      {"chalk", {"chalk", true, false, {}}}};
+  survey.world = "none";
+  return survey;
+}
+
+ResolvedConfig config_with(const std::vector<Given>& flags = {}) {
+  return resolve({}, {}, flags);
+}
+
+TEST(Inspect, ChoosesLayerAndSizeAsABakeDoes) {
+  const Survey survey = small_survey();
+  ResolvedConfig config = config_with();
+  const Inspection inspection = inspect_scene(survey, config);
+  ASSERT_EQ(inspection.objects.size(), 3U);
+  EXPECT_EQ(inspection.objects[0].lightmap_layer, "Second");
+  EXPECT_EQ(inspection.objects[0].tangent_layer, "UVMap");
+  EXPECT_EQ(inspection.objects[0].resolution, config.globals.object.resolution);
+  EXPECT_TRUE(inspection.objects[0].problems.empty());
+  EXPECT_EQ(inspection.objects[2].not_baked, "no faces");
+}
+
+TEST(Inspect, GoesOnWhereABakeWouldStop) {
+  Survey survey = small_survey();
+  survey.meshes[0].uv_layers[1].uv.assign(6, Vec2(0));
+  ResolvedConfig config = config_with();
+  config.globals.object.unwrap = ObjectSettings::Unwrap::never;
+  const Inspection inspection = inspect_scene(survey, config);
+  EXPECT_NE(inspection.objects[0].not_baked.find("no area"), std::string::npos);
+}
+
+TEST(Inspect, CountsProblemsAtTheSizeOfTheBake) {
+  Survey survey = small_survey();
+  survey.meshes[0].uv_layers[1].uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 0}, {1, 1}};
+  const Inspection inspection = inspect_scene(survey, config_with());
+  ASSERT_EQ(inspection.objects[0].problems.size(), 1U);
+  EXPECT_NE(inspection.objects[0].problems[0].find("texels overlap"), std::string::npos);
+}
+
+TEST(Inspect, AlignsItsTableInSpiteOfUnicode) {
+  const Survey survey = small_survey();
+  std::ostringstream out;
+  write_inspection(survey, inspect_scene(survey, config_with()), out);
+  std::istringstream lines(out.str());
+  std::string header, wall, column;
+  std::getline(lines, header);
+  std::getline(lines, wall);
+  std::getline(lines, column);
+  EXPECT_EQ(header.find("TYPE"), wall.find("MESH"));
+  EXPECT_EQ(header.find("TYPE") + 1, column.find("MESH"));  // one byte more, one character fewer
+  EXPECT_NE(out.str().find("chrome: beyond diffuse and emission: glossy"), std::string::npos);
+  EXPECT_EQ(out.str().find("chalk"), std::string::npos);
+}
+
+TEST(Inspect, WritesJson) {
+  const Survey survey = small_survey();
+  const auto json = inspection_json(survey, inspect_scene(survey, config_with()));
+  EXPECT_EQ(json.at("schema_version"), 1);
+  EXPECT_EQ(json.at("objects").at(0).at("uv").at("overlap_texels"), 0);
+  EXPECT_EQ(json.at("objects").at(2).at("baked"), false);
+  EXPECT_EQ(json.at("materials").size(), 2U);
+}
+
+}  // namespace
+}  // namespace rnmbake
