@@ -125,7 +125,7 @@ def _sandstone(albedo):
 
 
 def build(detail=6, albedo=0.7):
-    kit.start(exposure=0.75, look="Medium High Contrast")
+    kit.start(exposure=0.15, look="Medium High Contrast")
     mesh, units = _mesh(detail)
     _detail_uv(mesh)
     _lightmap_uv(mesh, units)
