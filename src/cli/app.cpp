@@ -3,7 +3,11 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/names.h"
+#include "cli/bake.h"
+#include "cli/decode.h"
+#include "cli/doctor.h"
 #include "cli/help_format.h"
+#include "cli/inspect.h"
 #include "pipeline/workspace.h"
 
 #include <algorithm>
@@ -15,18 +19,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#if __has_include("cli/bake.h")
-#include "cli/bake.h"
-#endif
-#if __has_include("cli/inspect.h")
-#include "cli/inspect.h"
-#endif
-#if __has_include("cli/doctor.h")
-#include "cli/doctor.h"
-#endif
-#if __has_include("cli/decode.h")
-#include "cli/decode.h"
-#endif
 
 namespace rnmbake {
 
@@ -67,19 +59,11 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all {
-#if __has_include("cli/bake.h")
-    {"bake", add_bake_command, about_bake},
-#endif
-#if __has_include("cli/inspect.h")
-        {"inspect", add_inspect_command, about_inspect},
-#endif
-#if __has_include("cli/doctor.h")
-        {"doctor", add_doctor_command},
-#endif
-#if __has_include("cli/decode.h")
-        {"decode", add_decode_command},
-#endif
+  static const std::vector<Command> all{
+      {"bake", add_bake_command, about_bake},
+      {"inspect", add_inspect_command, about_inspect},
+      {"doctor", add_doctor_command},
+      {"decode", add_decode_command},
   };
   return all;
 }
@@ -150,10 +134,16 @@ void refuse_leftovers(CLI::App& app) {
   if (!left.empty()) fail(ExitCode::usage, "unexpected argument '{}'; {}", left.front(), help_hint(app));
 }
 
+/// CLI11's own words, but for the one message that is not a sentence.
+std::string said_plainly(const CLI::ParseError& problem) {
+  const std::string said = problem.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) == nullptr) return said;
+  return fmt::format("flag {} needs a value", said.substr(0, said.find(':')));
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{purpose, "rnmbake"};
   app.formatter(std::make_shared<HelpFormat>());
-  app.footer(examples);
   app.set_version_flag("--version", "rnmbake " RNMBAKE_VERSION, "show the version and end");
   app.set_help_flag("-h,--help", "show this help and end");
   app.fallthrough()->allow_extras();
@@ -166,12 +156,13 @@ int parse_and_run(int argc, const char* const* argv) {
     CLI::App* added = app.get_subcommand(command.name);
     added->allow_extras(false)->description(added->get_description() + command.about);
   }
+  app.footer(examples);  // after the commands, so that they do not inherit it
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
-    fail(ExitCode::usage, "{}; {}", problem.what(), help_hint(app));
+    fail(ExitCode::usage, "{}; {}", said_plainly(problem), help_hint(app));
   }
   globals.apply();
   refuse_leftovers(app);

@@ -47,6 +47,14 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::Ap
   return help;
 }
 
+/// In the list of commands the first line of a description is enough.
+std::string HelpFormat::make_subcommand(const CLI::App* command) const {
+  const std::string about = command->get_description();
+  std::ostringstream out;
+  CLI::detail::format_help(out, command->get_name(), about.substr(0, about.find('\n')), left_column);
+  return out.str();
+}
+
 std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
   const std::string name = is_positional ? option->get_name(true) : names_of(option);
   std::ostringstream out;

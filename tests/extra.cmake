@@ -1,0 +1,13 @@
+# Suites that are driven by Python.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+# One test for each folder of tests/cli/ that holds a `command`; see run_cases.py.
+file(GLOB CLI_CASES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/cli/*/command)
+foreach(COMMAND_FILE ${CLI_CASES})
+  get_filename_component(CASE_FOLDER ${COMMAND_FILE} DIRECTORY)
+  get_filename_component(CASE ${CASE_FOLDER} NAME)
+  add_test(NAME cli_case.${CASE}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_cases.py
+            --binary $<TARGET_FILE:rnmbake> ${CASE})
+  set_tests_properties(cli_case.${CASE} PROPERTIES LABELS unit TIMEOUT 150)
+endforeach()
