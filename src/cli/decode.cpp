@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {

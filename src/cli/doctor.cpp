@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/ranges.h>
 #include <unistd.h>
 
 namespace rnmbake {

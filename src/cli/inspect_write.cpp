@@ -6,6 +6,8 @@
 #include <array>
 #include <ostream>
 
+#include <spdlog/fmt/ranges.h>
+
 namespace rnmbake {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 

@@ -3,6 +3,7 @@
 #include "config/value.h"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 

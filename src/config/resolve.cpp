@@ -9,6 +9,8 @@
 #include <set>
 #include <system_error>
 
+#include <spdlog/fmt/ranges.h>
+
 namespace rnmbake {
 
 namespace {

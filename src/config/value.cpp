@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include <spdlog/fmt/ranges.h>
+
 namespace rnmbake {
 
 namespace {
