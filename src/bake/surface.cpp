@@ -23,11 +23,24 @@ double diagonal_of(const Mesh& mesh, const Mat44& matrix) {
   return (high - low).length();
 }
 
+/// Draws the corners in by `distance` from each edge, at most by a fiftieth of the way to the middle: light
+/// from just below a face must not slip past an open edge to a receiver that stands off it.
+void shrink(SurfaceTriangle& triangle, double distance) {
+  auto& k = triangle.corners;
+  const Vec3 a = k[1].position - k[0].position, b = k[2].position - k[1].position,
+             c = k[0].position - k[2].position;
+  const double perimeter = double(a.length()) + b.length() + c.length();
+  const double inradius = a.cross(b).length() / perimeter;
+  const auto share = static_cast<float>(std::min(distance / inradius, 0.02));
+  const Vec3 middle = (k[0].position + k[1].position + k[2].position) / 3.0F;
+  for (SurfaceCorner& corner : k) corner.position += (middle - corner.position) * share;
+}
+
 }  // namespace
 
 double lift(const Vec3& position, double diagonal) {
-  const double near_origin = std::clamp(1e-3 * diagonal, 2e-6, 5e-5);
-  return std::max(near_origin, 5e-6 * Vec3d(position).length());
+  const double near_origin = std::clamp(1e-3 * diagonal, 1e-6, 1e-5);
+  return std::max(near_origin, 2e-6 * Vec3d(position).length());
 }
 
 Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset, const std::vector<Vec2>& uv,
@@ -52,9 +65,10 @@ Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset,
       continue;
     }
     triangle.normal = Vec3(normal / length);
-    for (SurfaceCorner& corner : triangle.corners) {
-      corner.position += triangle.normal * static_cast<float>(lift(corner.position, diagonal));
-    }
+    const double height = lift(triangle.corners[0].position, diagonal);
+    for (SurfaceCorner& corner : triangle.corners)
+      corner.position += triangle.normal * static_cast<float>(height);
+    shrink(triangle, 25 * height);
     if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
     surface.triangles.push_back(triangle);
   }

@@ -29,7 +29,8 @@ struct Surface {
 };
 
 /// How far a receiver stands off its surface: enough that rays do not start below it at any distance from
-/// the origin (5e-6 of it), yet small beside a small object (1/1000 of `diagonal`). World units.
+/// the origin (2e-6 of it, some 20 times the spacing of floats there), yet small beside a small object
+/// (1/1000 of `diagonal`). World units.
 [[nodiscard]] double lift(const Vec3& position, double diagonal);
 
 /// `subset`: triangle numbers of `mesh`. `uv` and `frames` as in scene/tangents.h.
