@@ -137,7 +137,7 @@ void refuse_leftovers(CLI::App& app) {
 
 /// CLI11's own words, but for the one message that is not a sentence.
 std::string said_plainly(const CLI::ParseError& problem) {
-  const std::string said = problem.what();
+  std::string said = problem.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) == nullptr) return said;
   return fmt::format("flag {} needs a value", said.substr(0, said.find(':')));
 }
