@@ -19,6 +19,20 @@ std::string names_of(const CLI::Option* option) {
   return names.substr(0, names.size() - 2);
 }
 
+/// One entry of a list: `left`, then the lines of `right` from column `indent` on; below where `left` is
+/// long. CLI11 had a helper for it that newer releases no longer have.
+std::string row(std::string left, const std::string& right, std::size_t indent) {
+  left.insert(0, "  ");
+  if (left.size() >= indent) left += "\n";
+  std::string out = left;
+  out.append(left.back() == '\n' ? indent : indent - left.size(), ' ');
+  for (const char letter : right) {
+    out += letter;
+    if (letter == '\n') out.append(indent, ' ');
+  }
+  return out + "\n";
+}
+
 }  // namespace
 
 std::string wrapped(const std::string& text, std::size_t width) {
@@ -50,17 +64,13 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::Ap
 /// In the list of commands the first line of a description is enough.
 std::string HelpFormat::make_subcommand(const CLI::App* command) const {
   const std::string about = command->get_description();
-  std::ostringstream out;
-  CLI::detail::format_help(out, command->get_name(), about.substr(0, about.find('\n')), left_column);
-  return out.str();
+  return row(command->get_name(), about.substr(0, about.find('\n')), left_column);
 }
 
 std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
   const std::string name = is_positional ? option->get_name(true) : names_of(option);
-  std::ostringstream out;
-  CLI::detail::format_help(out, "  " + name + (is_positional ? "" : make_option_opts(option)),
-                           wrapped(option->get_description(), columns - left_column), left_column);
-  return out.str();
+  return row("  " + name + (is_positional ? "" : make_option_opts(option)),
+             wrapped(option->get_description(), columns - left_column), left_column);
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
