@@ -1,0 +1,110 @@
+#include "bake/atlas.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+std::vector<TileSize> random_tiles(unsigned seed, int count, int largest) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> side(1, largest);
+  std::vector<TileSize> tiles;
+  for (int i = 0; i < count; ++i) tiles.push_back({side(random), side(random)});
+  return tiles;
+}
+
+/// Paints every tile into its atlas: nothing outside, nothing twice.
+void expect_sound(const std::vector<TileSize>& tiles, const AtlasPlan& plan, std::int64_t max_pixels) {
+  ASSERT_EQ(plan.placements.size(), tiles.size());
+  std::vector<std::vector<char>> used;
+  for (const TileSize& atlas : plan.atlases) used.emplace_back(std::size_t(atlas.width) * atlas.height);
+  std::vector<std::size_t> members(plan.atlases.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const Placement& place = plan.placements[i];
+    ASSERT_LT(place.atlas, plan.atlases.size());
+    const TileSize& atlas = plan.atlases[place.atlas];
+    ++members[place.atlas];
+    ASSERT_TRUE(place.x >= 0 && place.y >= 0 && place.x + tiles[i].width <= atlas.width &&
+                place.y + tiles[i].height <= atlas.height);
+    for (int y = place.y; y < place.y + tiles[i].height; ++y) {
+      for (int x = place.x; x < place.x + tiles[i].width; ++x)
+        ASSERT_EQ(used[place.atlas][std::size_t(y) * atlas.width + x]++, 0);
+    }
+  }
+  for (std::size_t a = 0; a < plan.atlases.size(); ++a) {
+    ASSERT_GT(members[a], 0U);
+    const auto pixels = std::int64_t(plan.atlases[a].width) * plan.atlases[a].height;
+    if (members[a] > 1) {
+      ASSERT_LE(pixels, max_pixels);
+    }
+  }
+}
+
+TEST(Atlas, HasNoOverlapsAndKeepsTheLimit) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const auto tiles = random_tiles(seed, 1 + int(seed) * 3, 1 + int(seed * 7 % 64));
+    for (const std::int64_t limit : {1, 100, 999, 4096, 70000, 1 << 24}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << " limit " << limit);
+      expect_sound(tiles, pack(tiles, limit), limit);
+    }
+  }
+}
+
+TEST(Atlas, OfTilesAsLargeAsTheLimitHasOneEach) {
+  const std::vector<TileSize> tiles{{2048, 2048}, {1024, 1024}, {1024, 1024}};
+  const AtlasPlan plan = pack(tiles, 1 << 20);
+  EXPECT_EQ(plan.atlases.size(), 3U);
+}
+
+TEST(Atlas, ThatIsTallDoesNotTakeNeighboursBeyondTheLimit) {
+  const std::vector<TileSize> tiles{{4, 20}, {4, 4}, {4, 4}};
+  expect_sound(tiles, pack(tiles, 100), 100);
+}
+
+TEST(Atlas, OfOneTileHasItsSize) {
+  const AtlasPlan plan = pack({{37, 5}}, 1 << 24);
+  ASSERT_EQ(plan.atlases.size(), 1U);
+  EXPECT_EQ(plan.atlases[0].width, 37);
+  EXPECT_EQ(plan.atlases[0].height, 5);
+}
+
+TEST(Atlas, OfOneTileBeyondTheLimitHasItsSize) {
+  const AtlasPlan plan = pack({{64, 64}}, 100);
+  ASSERT_EQ(plan.atlases.size(), 1U);
+  EXPECT_EQ(plan.atlases[0].width * plan.atlases[0].height, 64 * 64);
+}
+
+TEST(Atlas, OfEqualSquaresIsFull) {
+  const AtlasPlan plan = pack(std::vector<TileSize>(64, TileSize{64, 64}), 1 << 24);
+  ASSERT_EQ(plan.atlases.size(), 1U);
+  EXPECT_EQ(plan.atlases[0].width * plan.atlases[0].height, 64 * 64 * 64);
+}
+
+TEST(Atlas, WastesLittleOnMixedSizes) {
+  const auto tiles = random_tiles(5, 500, 64);
+  std::int64_t wanted = 0, used = 0;
+  for (const TileSize& tile : tiles) wanted += std::int64_t(tile.width) * tile.height;
+  for (const TileSize& atlas : pack(tiles, 1 << 24).atlases) used += std::int64_t(atlas.width) * atlas.height;
+  EXPECT_LT(double(used), 1.15 * double(wanted));
+}
+
+TEST(Atlas, IsTheSameEveryTime) {
+  const auto tiles = random_tiles(9, 200, 40);
+  const AtlasPlan a = pack(tiles, 20000), b = pack(tiles, 20000);
+  ASSERT_EQ(a.atlases.size(), b.atlases.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    EXPECT_EQ(a.placements[i].atlas, b.placements[i].atlas);
+    EXPECT_EQ(a.placements[i].x, b.placements[i].x);
+    EXPECT_EQ(a.placements[i].y, b.placements[i].y);
+  }
+}
+
+TEST(Atlas, OfNothingIsNothing) {
+  EXPECT_TRUE(pack({}, 100).atlases.empty());
+}
+
+}  // namespace
+}  // namespace rnmbake
