@@ -7,15 +7,16 @@
 namespace rnmbake {
 namespace {
 
-/// Fills shelves from the bottom, left to right; a full atlas is closed and a new one begun.
+/// Fills shelves from the bottom, left to right; an atlas that the next tile would make too large is closed
+/// and a new one begun.
 class ShelfPacker {
  public:
-  ShelfPacker(int width, std::int64_t max_pixels) : width_(width), max_height_(max_pixels / width) {}
+  ShelfPacker(int width, std::int64_t max_pixels) : width_(width), max_pixels_(max_pixels) {}
 
   Placement place(const TileSize& tile) {
     if (x_ + tile.width > width_) next_shelf();
-    if (y_ + tile.height > max_height_ && top_ > 0) next_atlas();
-    const Placement placed{plan_.atlases.size(), x_, y_};
+    if (top_ > 0 && !fits(tile)) next_atlas();
+    const Placement placed{atlases_.size(), x_, y_};
     x_ += tile.width;
     used_width_ = std::max(used_width_, x_);
     top_ = std::max(top_, y_ + tile.height);
@@ -24,22 +25,26 @@ class ShelfPacker {
 
   std::vector<TileSize> finish() {
     if (top_ > 0) next_atlas();
-    return std::move(plan_.atlases);
+    return std::move(atlases_);
   }
 
  private:
+  [[nodiscard]] bool fits(const TileSize& tile) const {
+    return std::int64_t(std::max(used_width_, x_ + tile.width)) * std::max(top_, y_ + tile.height) <=
+           max_pixels_;
+  }
   void next_shelf() {
     x_ = 0;
     y_ = top_;
   }
   void next_atlas() {
-    plan_.atlases.push_back({used_width_, top_});
+    atlases_.push_back({used_width_, top_});
     x_ = y_ = top_ = used_width_ = 0;
   }
 
-  AtlasPlan plan_;
+  std::vector<TileSize> atlases_;
   int width_;
-  std::int64_t max_height_;
+  std::int64_t max_pixels_;
   int x_ = 0, y_ = 0, top_ = 0, used_width_ = 0;
 };
 

@@ -16,7 +16,8 @@ WeightPolygon clip(const WeightPolygon& polygon, const std::array<float, 3>& cor
     const Weights& next = polygon[(i + 1) % polygon.size()];
     const float value = value_at(here, corner_values), value_next = value_at(next, corner_values);
     if (value >= 0) kept.push_back(here);
-    if ((value >= 0) != (value_next >= 0))
+    // A corner on the line itself is kept above, not cut again.
+    if (value * value_next < 0)
       kept.push_back(here + (next - here) * (value / (value - value_next)));
   }
   if (kept.size() < 3) kept.clear();

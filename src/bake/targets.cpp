@@ -48,6 +48,12 @@ std::optional<int> conventional_layer(const Mesh& mesh) {
   return std::nullopt;
 }
 
+/// The first slot with the same material: several may hold it. Empty slots stay apart.
+std::uint32_t first_slot(const std::vector<std::string>& slots, std::uint32_t slot) {
+  if (slot >= slots.size() || slots[slot].empty()) return slot;
+  return static_cast<std::uint32_t>(std::find(slots.begin(), slots.end(), slots[slot]) - slots.begin());
+}
+
 }  // namespace
 
 UvChoice choose_lightmap_uv(const Mesh& mesh, const ObjectSettings& settings, const std::string& object) {
@@ -104,13 +110,13 @@ Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const
 }
 
 int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
-  double side = settings.resolution;
-  if (settings.texels_per_unit > 0) {
-    side =
-        areas.uv > 0 ? settings.texels_per_unit * std::sqrt(areas.world / areas.uv) : settings.min_resolution;
-    side = std::clamp(side, double(settings.min_resolution), double(settings.max_resolution));
-  }
-  return static_cast<int>(std::ceil(side / 4 - 1e-6)) * 4;
+  const auto rounded_up = [](double side) { return static_cast<int>(std::ceil(side / 4 - 1e-6)) * 4; };
+  if (settings.texels_per_unit <= 0) return rounded_up(settings.resolution);
+  const double wanted =
+      areas.uv > 0 ? settings.texels_per_unit * std::sqrt(areas.world / areas.uv) : settings.min_resolution;
+  const int lowest = rounded_up(settings.min_resolution);
+  const int highest = std::max(lowest, settings.max_resolution / 4 * 4);
+  return std::clamp(rounded_up(std::min(wanted, double(highest))), lowest, highest);
 }
 
 std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
@@ -118,7 +124,8 @@ std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& s
   std::vector<std::uint32_t> label(mesh.triangles(), 0);
   if (mode == ObjectSettings::Split::loose) label = loose_parts(mesh);
   if (mode == ObjectSettings::Split::material) {
-    for (std::size_t t = 0; t < label.size(); ++t) label[t] = mesh.polygon_slot[mesh.triangle_polygon[t]];
+    for (std::size_t t = 0; t < label.size(); ++t)
+      label[t] = first_slot(slots, mesh.polygon_slot[mesh.triangle_polygon[t]]);
   }
   const std::uint32_t last = label.empty() ? 0 : *std::max_element(label.begin(), label.end());
   std::vector<Part> parts(last + 1);
