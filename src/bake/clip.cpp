@@ -17,8 +17,7 @@ WeightPolygon clip(const WeightPolygon& polygon, const std::array<float, 3>& cor
     const float value = value_at(here, corner_values), value_next = value_at(next, corner_values);
     if (value >= 0) kept.push_back(here);
     // A corner on the line itself is kept above, not cut again.
-    if (value * value_next < 0)
-      kept.push_back(here + (next - here) * (value / (value - value_next)));
+    if (value * value_next < 0) kept.push_back(here + (next - here) * (value / (value - value_next)));
   }
   if (kept.size() < 3) kept.clear();
   return kept;
