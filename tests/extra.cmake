@@ -11,3 +11,7 @@ foreach(COMMAND_FILE ${CLI_CASES})
             --binary $<TARGET_FILE:rnmbake> ${CASE})
   set_tests_properties(cli_case.${CASE} PROPERTIES LABELS unit TIMEOUT 150)
 endforeach()
+
+add_test(NAME docs.check
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_docs.py --binary $<TARGET_FILE:rnmbake>)
+set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 120)

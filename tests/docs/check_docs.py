@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Checks what the documentation says against what is there.
+
+    check_docs.py --binary build/release/rnmbake
+
+Links lead somewhere; every flag exists; docs/README.md lists every page; src/README.md has the floors that
+tools/dev/floors.py enforces; blender_scripts/README.md names every entry script.
+"""
+
+import argparse
+import importlib.util
+import os
+from pathlib import Path
+import re
+import subprocess
+import sys
+import unittest
+
+ROOT = Path(__file__).resolve().parents[2]
+NOT_OURS = {".git", ".roots", "build", "out", "shared"}
+
+# Flags of other programs, as the documentation shows them.
+FOREIGN_FLAGS = {
+    "--factory-startup", "--python", "--python-exit-code",  # blender
+    "--install",  # cmake
+    "--info",  # oiiotool
+}
+HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation
+
+FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+CALL = re.compile(r"\brnmbake ([a-z]+)\b(.*)")
+
+
+def pages():
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = sorted(f for f in folders if f not in NOT_OURS)
+        yield from (Path(folder) / name for name in sorted(files) if name.endswith(".md"))
+
+
+def numbered_lines(page):
+    """(place, line), for messages."""
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), start=1):
+        yield f"{page.relative_to(ROOT)}:{number}", line
+
+
+def without_code(page):
+    """The lines outside fenced blocks."""
+    fenced = False
+    for place, line in numbered_lines(page):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+        elif not fenced:
+            yield place, line
+
+
+def anchors(page):
+    """What GitHub makes of the headings."""
+    for _, line in without_code(page):
+        if line.startswith("#"):
+            kept = re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower())
+            yield kept.replace(" ", "-")
+
+
+def flags_in(text):
+    expanded = re.sub(r"--\[no-\]([a-z0-9-]+)", r"--\1 --no-\1", text)
+    return set(FLAG.findall(expanded))
+
+
+def load(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Documentation(unittest.TestCase):
+    binary = None
+
+    def help_of(self, *command):
+        done = subprocess.run([self.binary, *command, "--help"], check=True, stdout=subprocess.PIPE, encoding="utf-8")
+        return done.stdout
+
+    def flags_by_command(self):
+        overview = self.help_of()
+        listed = overview.split("Subcommands:")[1].split("Examples:")[0]
+        commands = re.findall(r"^  ([a-z]+) ", listed, flags=re.MULTILINE)
+        common = flags_in(overview)
+        return {name: common | flags_in(self.help_of(name)) | HIDDEN_FLAGS for name in commands}
+
+    def test_links_lead_somewhere(self):
+        for page in pages():
+            for place, line in without_code(page):
+                for target in LINK.findall(line):
+                    if "://" in target:
+                        continue
+                    name, _, anchor = target.partition("#")
+                    file = page.parent / name if name else page
+                    with self.subTest(place, link=target):
+                        self.assertTrue(file.exists())
+                        if anchor:
+                            self.assertIn(anchor, set(anchors(file)))
+
+    def test_flags_exist(self):
+        by_command = self.flags_by_command()
+        dev = subprocess.run([ROOT / "dev"], check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
+        known = set().union(FOREIGN_FLAGS, flags_in(dev), *by_command.values())
+        for folder in ("bench", "tests", "tools"):
+            for script in ROOT.glob(folder + "/**/*.py"):
+                known |= {flag for _, line in numbered_lines(script) if "add_argument" in line for flag in flags_in(line)}
+        for page in pages():
+            for place, line in numbered_lines(page):
+                with self.subTest(place):
+                    self.assertEqual(flags_in(line) - known, set())
+
+    def test_calls_pass_flags_of_their_command(self):
+        by_command = self.flags_by_command()
+        for page in pages():
+            for place, line in numbered_lines(page):
+                call = CALL.search(line.split("`")[1] if line.count("`") == 2 else line)
+                if not call or not line.startswith("    "):
+                    continue
+                with self.subTest(place):
+                    self.assertIn(call[1], by_command)
+                    self.assertEqual(flags_in(call[2].split(" # ")[0]) - by_command[call[1]], set())
+
+    def test_index_lists_every_page(self):
+        index = (ROOT / "docs/README.md").read_text(encoding="utf-8")
+        for page in (ROOT / "docs").glob("*.md"):
+            if page.name != "README.md":
+                self.assertIn(f"]({page.name})", index)
+
+    def test_floors_are_those_enforced(self):
+        enforced = load(ROOT / "tools/dev/floors.py").FLOORS
+        rooms = {path.name for path in (ROOT / "src").iterdir() if path.is_dir()}
+        described = {}
+        for _, line in numbered_lines(ROOT / "src/README.md"):
+            if row := re.match(r"\| (\d) \| `(\w+)` \|", line):
+                described[row[2]] = int(row[1])
+        self.assertEqual(described, {room: enforced[room] for room in rooms})
+
+    def test_entry_scripts_are_those_described(self):
+        text = (ROOT / "blender_scripts/README.md").read_text(encoding="utf-8")
+        described = set(re.findall(r"^\| `(\w+_entry\.py)`", text, flags=re.MULTILINE))
+        self.assertEqual(described, {path.name for path in (ROOT / "blender_scripts").glob("*_entry.py")})
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--binary", type=Path, required=True)
+    args, rest = parser.parse_known_args()
+    Documentation.binary = args.binary.resolve()
+    unittest.main(argv=[sys.argv[0], *rest])
