@@ -23,7 +23,7 @@ double diagonal_of(const Mesh& mesh, const Mat44& matrix) {
   return (high - low).length();
 }
 
-/// Draws the corners in by `distance` from each edge, at most by a fiftieth of the way to the middle: light
+/// Draws the corners in by `distance` from each edge, at most by a twentieth of the way to the middle: light
 /// from just below a face must not slip past an open edge to a receiver that stands off it.
 void shrink(SurfaceTriangle& triangle, double distance) {
   auto& k = triangle.corners;
@@ -40,7 +40,7 @@ void shrink(SurfaceTriangle& triangle, double distance) {
 
 double lift(const Vec3& position, double diagonal) {
   const double near_origin = std::clamp(1e-3 * diagonal, 1e-6, 1e-5);
-  return std::max(near_origin, 2e-6 * Vec3d(position).length());
+  return std::max(near_origin, 1e-6 * Vec3d(position).length());
 }
 
 Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset, const std::vector<Vec2>& uv,

@@ -29,8 +29,8 @@ struct Surface {
 };
 
 /// How far a receiver stands off its surface: enough that rays do not start below it at any distance from
-/// the origin (2e-6 of it, some 20 times the spacing of floats there), yet small beside a small object
-/// (1/1000 of `diagonal`). World units.
+/// the origin (1e-6 of it, some 10 times the spacing of floats there; 2e-7 was still clean from 126 units
+/// on), yet small beside a small object (1/1000 of `diagonal`). World units.
 [[nodiscard]] double lift(const Vec3& position, double diagonal);
 
 /// `subset`: triangle numbers of `mesh`. `uv` and `frames` as in scene/tangents.h.
