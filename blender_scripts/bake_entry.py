@@ -21,13 +21,13 @@ def main(task):
     task.progress("load")
     load.open_scene(task)
     scene = bpy.context.scene
-    cycles.apply_settings(scene, task.request["cycles"])
     if task.request["recipe"] == "receiver":
         return bake_receivers(task, scene)
     return flat_normal_map.bake_targets(task, scene)
 
 
 def bake_receivers(task, scene):
+    cycles.apply_settings(scene, task.request["cycles"])
     timings = []
     for index, atlas in enumerate(task.request["atlases"]):
         timings.append(bake_atlas(task, scene, atlas, index))

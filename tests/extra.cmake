@@ -15,3 +15,16 @@ endforeach()
 add_test(NAME docs.check
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_docs.py --binary $<TARGET_FILE:rnmbake>)
 set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 120)
+
+# Bad input through the real program and a real Blender: one test for each class of bad_input/*_check.py.
+foreach(CHECK files.Scenes files.Folders content.Content content.Names content.Scripts
+              blender.Environment blender.Failing blender.Stopped)
+  string(REPLACE "." ";" PARTS ${CHECK})
+  list(GET PARTS 0 FILE)
+  list(GET PARTS 1 CLASS)
+  add_test(NAME bad_input.${CLASS}
+    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/bad_input/${FILE}_check.py
+            -v ${CLASS})
+  set_tests_properties(bad_input.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
+endforeach()

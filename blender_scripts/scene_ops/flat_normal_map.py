@@ -12,6 +12,7 @@ from scene_ops.receivers import read_floats
 def bake_targets(task, scene):
     targets = task.request["targets"]
     wholes = realize.targets_as_objects(targets)
+    cycles.apply_settings(scene, task.request["cycles"])  # after realize, which renders with its own
     return {"targets": [bake_target(task, scene, target, whole) for target, whole in zip(targets, wholes)]}
 
 

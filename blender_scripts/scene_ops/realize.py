@@ -16,7 +16,19 @@ def needs_copy(target):
     ob = bpy.data.objects.get(target["name"])
     if ob is None or target["key"] != ob.name or ob.library or ob.type != "MESH" or ob.data.library:
         return True
+    if not can_be_selected(ob):
+        return True
     return "uv_array" in target or "polygons" in target or target["uv_layer"] not in ob.data.uv_layers
+
+
+def can_be_selected(ob):
+    """Blender bakes what is selected, and what only renders show cannot be."""
+    ob.hide_select = False
+    try:
+        ob.select_set(True)
+    except RuntimeError:  # not in the view layer
+        return False
+    return ob.visible_get() and ob.select_get()
 
 
 def realize(keys, every=False):

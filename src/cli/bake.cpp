@@ -203,7 +203,8 @@ class BakeRun {
         });
     const std::size_t total = list_.targets.size();
     if (failed > 0) {
-      log::error("{} of {} objects failed; the others are in {}", failed, total,
+      // A warning: each of them had its error already.
+      log::warn("{} of {} objects failed; the others are in {}", failed, total,
                  settings_.output.dir.string());
       return static_cast<int>(ExitCode::tasks_failed);
     }

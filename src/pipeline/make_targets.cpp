@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* unwrapped_layer = "Lightmap";
 constexpr double packing_guess = 0.6;  // share of the square that charts usually fill
+constexpr double widest_margin = 1.0 / 16;  // of the square; more would leave small maps no room for charts
 
 Uvs layer_uvs(const Mesh& mesh, int layer) {
   return std::make_shared<const std::vector<Vec2>>(mesh.uv_layers[static_cast<std::size_t>(layer)].uv);
@@ -101,7 +102,8 @@ class TargetMaker {
     for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
     const std::vector<Vec2> none(mesh.loop_vertex.size());
     const Areas guess{areas(mesh, all, none, object.to_world).world, packing_guess};
-    return candidate.settings.unwrap_margin / double(choose_resolution(candidate.settings, guess));
+    const double side = choose_resolution(candidate.settings, guess);
+    return std::min(candidate.settings.unwrap_margin / side, widest_margin);
   }
 
   void add_targets(const Candidate& candidate) {

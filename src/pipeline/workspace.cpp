@@ -36,27 +36,27 @@ nlohmann::json Workspace::run(Launch launch) {
   if (launch.threads == 0) launch.threads = threads(1);
   log::debug("{} in {}", launch.entry, launch.folder.string());
   LaunchOutcome outcome = blender_.run(launch, limits(), [](const ProgressEvent&) {});
-  if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) throw_failure(*failure);
+  if (auto* failure = std::get_if<LaunchFailure>(&outcome)) {
+    const bool says_where = failure->kind == LaunchFailure::Kind::refused;
+    if (!says_where) failure->message = settings().scene.file.string() + ": " + failure->message;
+    throw_failure(*failure);
+  }
   return std::get<Finished>(std::move(outcome)).result;
 }
 
 std::string describe(const LaunchFailure& failure) {
   using Kind = LaunchFailure::Kind;
   switch (failure.kind) {
-    case Kind::refused:
-      return failure.message;
     case Kind::crashed:
-      return fmt::format("Blender crashed: {}", failure.message);
-    case Kind::killed:
-      return fmt::format(
-          "Blender was killed, most likely for want of memory ({}): lower --atlas-limit or --jobs, or set "
-          "--memory-limit",
-          failure.message);
+      return failure.message + "; try another Blender with --blender, or leave the object out with --exclude";
     case Kind::hung:
-      return fmt::format("Blender hung: {}: see --timeout", failure.message);
+      return failure.message + "; raise --timeout if it was only slow";
     case Kind::script:
       return fmt::format("a script of rnmbake failed, which is a defect: {}", failure.message);
     case Kind::no_result:
+      return failure.message + "; --keep-temporary keeps what it printed";
+    case Kind::refused:
+    case Kind::killed:
     case Kind::stopped:
       break;
   }

@@ -1,0 +1,89 @@
+"""Scenes that open, but in which something stands in the way."""
+import unittest
+
+from harness import INVALID_INPUT, OK, USAGE, BadInput, files_in
+
+
+class Content(BadInput):
+    def test_no_meshes(self):
+        self.assert_refused(self.bake("no_meshes.blend"), INVALID_INPUT, "no_meshes.blend")
+
+    def test_only_an_object_without_faces(self):
+        self.assert_refused(self.bake("no_faces.blend"), INVALID_INPUT, "no_faces.blend", "faces")
+
+    def test_object_without_faces_beside_others(self):
+        ended = self.bake("some_faces.blend")
+        self.assertEqual(ended.code, OK, ended.err)
+        manifest = self.manifest()
+        self.assertEqual([entry["object"] for entry in manifest["objects"]], ["floor"])
+        self.assertEqual(manifest["skipped"], [{"key": "wire", "reason": "no faces"}])
+
+    def test_uvs_all_zero(self):
+        ended = self.bake("zero_uvs.blend", "--unwrap", "never")
+        self.assert_refused(ended, INVALID_INPUT, "'flat_uvs'", "'Lightmap'", "--unwrap")
+
+    def test_uvs_all_zero_are_unwrapped(self):
+        ended = self.bake("zero_uvs.blend", "--save-scene", "never")
+        self.assertEqual(ended.code, OK, ended.err)
+        entry = self.manifest()["objects"][0]
+        self.assertTrue(entry["unwrapped"])
+        self.assertGreater(entry["coverage"], 0.3)
+
+    def test_nan_vertex(self):
+        self.assert_refused(self.bake("nan_vertex.blend"), INVALID_INPUT, "'broken'", "vertex 3")
+
+    def test_pattern_that_matches_nothing(self):
+        for flags in (("--objects", "flor*"), ("--exclude", "flor*")):
+            with self.subTest(flags=flags):
+                self.assert_refused(self.bake("good.blend", *flags), USAGE, "'flor*'", flags[0], "rnmbake inspect")
+
+    def test_everything_excluded(self):
+        self.assert_refused(self.bake("good.blend", "--exclude", "*"), INVALID_INPUT, "good.blend")
+
+    def test_unknown_uv_layer(self):
+        ended = self.bake("good.blend", "--uv", "Lightmapp", "--objects", "floor")
+        self.assert_refused(ended, INVALID_INPUT, "'floor'", "'Lightmapp'", "'Lightmap'", "--uv")
+
+
+class Names(BadInput):
+    def test_become_distinct_files_inside_the_folder(self):
+        ended = self.bake("names.blend", "--save-scene", "never")
+        self.assertEqual(ended.code, OK, ended.err)
+        self.assertEqual(files_in(self.folder / "tmp"), [])
+        objects = self.manifest()["objects"]
+        self.assertEqual(len(objects), 9)
+        self.assertTrue({"../../x", "a/b", "Säule 柱", "case", "CASE"} <= {entry["object"] for entry in objects})
+        files = [name for entry in objects for name in entry["files"]]
+        self.assertEqual(sorted(files), self.lightmaps())
+        self.assertEqual(len({name.casefold() for name in files}), 9)
+        for name in files:
+            self.assertNotIn("/", name)
+            self.assertNotIn(name[0], ".-")
+            self.assertLessEqual(len(name.encode()), 200)
+        self.assertEqual(sorted(files_in(self.folder)),
+                         sorted(f"out/{name}" for name in files + ["manifest.json"]))
+
+
+class Scripts(BadInput):
+    def test_auto_run_script_does_not_run(self):
+        self.assert_refused(self.bake("autorun.blend"), INVALID_INPUT, "auto.py", "--allow-scripts")
+        self.assertFalse((self.scenes / "script_was_here").exists())
+
+    def test_auto_run_script_runs_when_trusted(self):
+        marker = self.scenes / "script_was_here"
+        self.addCleanup(marker.unlink, missing_ok=True)
+        ended = self.bake("autorun.blend", "--allow-scripts")
+        self.assertEqual(ended.code, OK, ended.err)
+        self.assertTrue(marker.exists())
+
+    def test_scripted_driver(self):
+        self.assert_refused(self.bake("driver.blend"), INVALID_INPUT, "'driven'", "--allow-scripts")
+
+    def test_scripted_driver_runs_when_trusted(self):
+        ended = self.bake("driver.blend", "--allow-scripts")
+        self.assertEqual(ended.code, OK, ended.err)
+        self.assertEqual(len(self.lightmaps()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

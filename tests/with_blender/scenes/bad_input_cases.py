@@ -1,0 +1,94 @@
+"""blender -b --factory-startup --python bad_input_cases.py -- FOLDER: small scenes, each with one thing wrong.
+
+good.blend is the exception: three cards under a sun, one of them ("offender") far away at x = 2000.
+"""
+import os
+import sys
+
+import bpy
+
+MARKER = "script_was_here"  # what the auto-run script would leave beside its scene
+
+
+def link(ob):
+    bpy.context.scene.collection.objects.link(ob)
+    return ob
+
+
+def card(name, x=0.0):
+    """A unit square that faces up, with lightmap UVs that fill the map."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="Lightmap")
+    ob = link(bpy.data.objects.new(name, mesh))
+    ob.location.x = x
+    return ob
+
+
+def sun():
+    light = bpy.data.lights.new("sun", "SUN")
+    light.energy = 3
+    link(bpy.data.objects.new("sun", light)).location = (0, 0, 5)
+
+
+def edges_only(name):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    return link(bpy.data.objects.new(name, mesh))
+
+
+def good(_folder):
+    for x, name in ((0, "floor"), (2000, "offender"), (4, "wall")):
+        card(name, x)
+
+
+def no_meshes(_folder):
+    link(bpy.data.objects.new("empty", None))
+
+
+def no_faces(_folder):
+    edges_only("wire")
+
+
+def some_faces(_folder):
+    edges_only("wire")
+    card("floor")
+
+
+def zero_uvs(_folder):
+    layer = card("flat_uvs").data.uv_layers["Lightmap"]
+    layer.data.foreach_set("uv", [0.0] * (2 * len(layer.data)))
+
+
+def nan_vertex(_folder):
+    card("floor")
+    card("broken", 2).data.vertices[3].co.x = float("nan")
+
+
+def names(_folder):
+    wanted = ("../../x", "a/b", "Säule 柱", "n" * 300, "case", "CASE", ".hidden", "-flag", "con")
+    for x, name in enumerate(wanted):
+        card(name, 2.0 * x)
+
+
+def autorun(folder):
+    card("floor")
+    text = bpy.data.texts.new("auto.py")
+    text.write(f"open({os.path.join(folder, MARKER)!r}, 'w').close()\n")
+    text.use_module = True
+
+
+def driver(_folder):
+    driven = card("driven").driver_add("location", 0).driver
+    driven.type, driven.expression = "SCRIPTED", "__import__('os').getpid() * 0 + 1"
+
+
+def main(folder):
+    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, nan_vertex, names, autorun, driver):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        sun()
+        build(folder)
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, build.__name__ + ".blend"), compress=False)
+
+
+main(sys.argv[sys.argv.index("--") + 1])
