@@ -3,6 +3,10 @@ import bpy
 
 NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
 
+# On objects that stand for a surface of the user's scene (lambert_scene.py): the key and name that it has there.
+KEY_PROPERTY, NAME_PROPERTY = "rnmbake key", "rnmbake name"
+LABEL_PROPERTY = "rnmbake material"  # on materials, likewise
+
 
 def shown_surfaces(depsgraph):
     """Every instance with faces that a render depsgraph shows, as Cycles picks them.
@@ -23,6 +27,8 @@ class Keys:
         """The object's name; instancer/name#n for instances, and wherever a library repeats a name."""
         original = instance.object.original
         instancer = instancer_of(instance)
+        if KEY_PROPERTY in original:
+            return original[KEY_PROPERTY]
         key = f"{instancer}/{original.name_full}" if instancer else original.name
         if instancer or key in self._given:
             number = 0

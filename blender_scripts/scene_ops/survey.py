@@ -12,7 +12,7 @@ import bpy
 
 from core.task import Refusal
 from scene_ops.describe import describe_light, describe_material, describe_world, light_group
-from scene_ops.keys import Keys, instancer_of, shown_surfaces
+from scene_ops.keys import LABEL_PROPERTY, NAME_PROPERTY, Keys, instancer_of, shown_surfaces
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
@@ -97,7 +97,7 @@ class Surveyor:
                           "transform in Blender", object_name=original.name)
         self.objects.append({
             "key": self._keys.new(instance),
-            "name": original.name,
+            "name": original.get(NAME_PROPERTY, original.name),
             "instancer": instancer_of(instance),
             "type": original.type,
             "mesh": self.meshes.add(ob.data),
@@ -110,15 +110,18 @@ class Surveyor:
 
 
 def material_name(material):
-    """Unique among the file's materials: the plain name, with the library's file for a linked one."""
-    return material.original.name_full if material else ""
+    """Unique among the file's materials: the plain name, with the library's file for a linked one.
+
+    A lambert material goes by the name of the one that it stands for.
+    """
+    return material.original.get(LABEL_PROPERTY, material.original.name_full) if material else ""
 
 
 def survey_scene(task):
     surveyor = Surveyor(task)
     scene = bpy.context.scene
     with_render_depsgraph(surveyor.visit)
-    wanted = [material for material in bpy.data.materials if material.name_full in surveyor.material_names]
+    wanted = [material for material in bpy.data.materials if material_name(material) in surveyor.material_names]
     return {
         "format": FORMAT,
         "byte_order": sys.byteorder,
@@ -130,7 +133,7 @@ def survey_scene(task):
         "data_bytes": surveyor.meshes.bytes_written,
         "meshes": surveyor.meshes.entries,
         "objects": surveyor.objects,
-        "materials": {material.name_full: describe_material(material) for material in wanted},
+        "materials": {material_name(material): describe_material(material) for material in wanted},
         "lights": surveyor.lights,
         "world": describe_world(scene.world),
         "warnings": surveyor.warnings,

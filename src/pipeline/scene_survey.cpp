@@ -24,8 +24,10 @@ Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, c
 /// A .blend in which every surface shows its own baked albedo and emission through a plain diffuse material.
 fs::path make_lambert_scene(Workspace& workspace, const fs::path& scene) {
   log::info("baking albedo and emission for --materials lambert");
-  Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", scene);
-  return launch.folder / workspace.run(launch).at("blend").get<std::string>();
+  const Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", scene);
+  const nlohmann::json answer = workspace.run(launch);
+  for (const auto& warning : answer.at("warnings")) log::warn("{}", warning.get<std::string>());
+  return launch.folder / answer.at("blend").get<std::string>();
 }
 
 }  // namespace

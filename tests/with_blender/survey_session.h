@@ -42,9 +42,9 @@ class SurveySession {
     if (!result.succeeded()) fail(ExitCode::tasks_failed, "{}: {}", script, result.output);
   }
 
-  LaunchOutcome launch(const std::filesystem::path& scene) {
+  LaunchOutcome launch(const std::filesystem::path& scene, const std::string& entry = "survey_entry.py") {
     Launch launch;
-    launch.entry = "survey_entry.py";
+    launch.entry = entry;
     if (scene.extension() == ".blend") launch.scene = scene;
     launch.request = {{"scene", scene.string()}};
     launch.folder = folder_.path() / ("launch" + std::to_string(launches_++));
@@ -60,6 +60,9 @@ class SurveySession {
     }
     return read_survey(last_folder_ / std::get<Finished>(outcome).result.at("survey").get<std::string>());
   }
+
+  /// The folder of the last launch.
+  [[nodiscard]] const std::filesystem::path& last_folder() const { return last_folder_; }
 
  private:
   const std::string scenes = RNMBAKE_SOURCE_DIR "/tests/with_blender/scenes/";

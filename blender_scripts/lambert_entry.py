@@ -1,0 +1,33 @@
+"""Blender runs this for --materials lambert: docs/lambert.md.
+
+Answers with lambert.blend: the scene as plain mesh objects under their old names, each with its own baked albedo
+and emission in place of its materials; lights and world as they were. The bake then goes on with that file.
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import bpy  # noqa: E402
+
+from core.task import run  # noqa: E402
+from scene_ops import lambert_bake, lambert_collect, lambert_scene  # noqa: E402
+from scene_ops.load import open_scene, refuse_blocked_scripts  # noqa: E402
+
+FILE = "lambert.blend"
+
+
+def main(task):
+    warnings = open_scene(task)
+    task.progress("evaluate")
+    shown = lambert_collect.collect()
+    refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
+    lambert_scene.rebuild(shown)
+    warnings += shown.warnings + lambert_bake.replace_materials(task, shown.surfaces)
+    lambert_scene.drop_originals(shown)
+    # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
+    bpy.ops.wm.save_as_mainfile(filepath=task.path(FILE), copy=True, relative_remap=True, check_existing=False)
+    return {"blend": FILE, "warnings": warnings}
+
+
+run(main)

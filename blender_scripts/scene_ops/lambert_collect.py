@@ -1,0 +1,99 @@
+"""All that a render of the scene shows, taken out of the dependency graph: meshes, materials, places, lights."""
+import bpy
+
+from scene_ops.keys import Keys, instancer_of, shown_surfaces
+from scene_ops.survey import with_render_depsgraph
+
+# What Cycles reads of an object beside its geometry; owners and names differ between versions.
+FLAGS = ("is_shadow_catcher", "is_holdout", "pass_index", "color",
+         "shadow_terminator_normal_offset", "shadow_terminator_geometry_offset",
+         "shadow_terminator_shading_offset")
+CYCLES_FLAGS = ("shadow_terminator_offset", "shadow_terminator_geometry_offset", "is_caustics_caster",
+                "is_caustics_receiver")
+KEPT_TYPES = {"VOLUME", "POINTCLOUD", "CURVES", "HAIR"}  # no surfaces that could be baked
+
+
+class Shown:
+    """One thing that a render shows, as an object of its own would have to be."""
+
+    def __init__(self, instance, name):
+        ob, owner = instance.object, instance.parent if instance.is_instance else None
+        self.name = name
+        self.plain_name = ob.original.name
+        self.original = ob.original
+        self.owner = owner.original if owner else ob.original
+        self.is_copy = bool(instancer_of(instance))
+        self.matrix = instance.matrix_world.copy()
+        self.visible = ray_visibility(ob, owner)
+        self.flags = {flag: plain(getattr(ob, flag)) for flag in FLAGS if hasattr(ob, flag)}
+        self.cycles_flags = {flag: getattr(ob.cycles, flag) for flag in CYCLES_FLAGS if hasattr(ob.cycles, flag)}
+        self.linking = light_linking(self.owner) or light_linking(self.original)
+        self.data = None  # a mesh or a light
+        self.materials = []
+        self.object = None  # what stands for it in the new scene
+
+
+class Scene:
+    def __init__(self):
+        self.surfaces, self.lights, self.kept, self.warnings = [], [], [], []
+
+
+def plain(value):
+    return value if isinstance(value, (bool, int, float)) else tuple(value)
+
+
+def ray_visibility(ob, owner):
+    """Cycles shows an instance to the rays that both it and what places it are visible to."""
+    names = [name for name in dir(ob) if name.startswith("visible_") and isinstance(getattr(ob, name), bool)]
+    return {name: getattr(ob, name) and (owner is None or getattr(owner, name)) for name in names}
+
+
+def light_linking(ob):
+    """The light-linking collections of an object by role; Blender has them from 4.0 on."""
+    linking = getattr(ob, "light_linking", None)
+    if linking is None:
+        return {}
+    roles = {role: getattr(linking, role) for role in ("receiver_collection", "blocker_collection")}
+    return {role: collection for role, collection in roles.items() if collection}
+
+
+def collect():
+    scene = Scene()
+    with_render_depsgraph(lambda depsgraph: _visit(depsgraph, scene))
+    return scene
+
+
+def _visit(depsgraph, scene):
+    override = depsgraph.view_layer_eval.material_override
+    names, meshes = Keys(), {}
+    for instance in shown_surfaces(depsgraph):
+        surface = Shown(instance, names.new(instance))
+        evaluated = instance.object
+        shared = evaluated.data.as_pointer()
+        if shared not in meshes:
+            meshes[shared] = bpy.data.meshes.new_from_object(evaluated)
+        surface.data = meshes[shared]
+        surface.materials = [_original(override or slot.material) for slot in evaluated.material_slots]
+        scene.surfaces.append(surface)
+    for instance in depsgraph.object_instances:
+        if instance.show_self:
+            _add_other(instance, scene)
+
+
+def _add_other(instance, scene):
+    ob = instance.object
+    if ob.type == "LIGHT":
+        light = Shown(instance, ob.original.name)
+        light.data = ob.original.data
+        scene.lights.append(light)
+    elif ob.type in KEPT_TYPES and not instance.is_instance:
+        scene.kept.append(ob.original)
+        scene.warnings.append(f"{ob.original.name}: {ob.type.lower()} keeps its material; only surfaces become "
+                              "lambert")
+    if not instance.is_instance and any(system.settings.type == "HAIR" and system.settings.render_type == "PATH"
+                                        for system in ob.particle_systems):
+        scene.warnings.append(f"{ob.original.name}: its hair is left out with --materials lambert")
+
+
+def _original(material):
+    return material.original if material else None

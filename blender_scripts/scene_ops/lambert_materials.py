@@ -1,0 +1,137 @@
+"""Which materials look the same everywhere, which ones emit, and the plain ones that take their place."""
+import bpy
+
+from scene_ops.describe import describe_material
+from scene_ops.describe_nodes import active_output, reachable_nodes
+from scene_ops.keys import LABEL_PROPERTY
+
+# Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
+UNIFORM = {
+    "RGB", "VALUE", "MATH", "VECT_MATH", "MIX", "MIX_RGB", "INVERT", "GAMMA", "BRIGHTCONTRAST", "HUE_SAT",
+    "CURVE_RGB", "CURVE_VEC", "CURVE_FLOAT", "VALTORGB", "RGBTOBW", "COMBINE_COLOR", "SEPARATE_COLOR", "COMBRGB",
+    "SEPRGB", "COMBHSV", "SEPHSV", "COMBXYZ", "SEPXYZ", "BLACKBODY", "WAVELENGTH", "CLAMP", "MAP_RANGE", "FRESNEL",
+    "LAYER_WEIGHT", "LIGHT_PATH", "MIX_SHADER", "ADD_SHADER", "EMISSION", "SUBSURFACE_SCATTERING", "HOLDOUT",
+}
+# Nodes that vary over a surface, but not from one object to the next with the same mesh.
+MESH_BOUND = {
+    "UVMAP", "MAPPING", "TEX_IMAGE", "TEX_CHECKER", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "TEX_BRICK",
+    "TEX_GRADIENT", "TEX_MUSGRAVE", "TEX_WHITE_NOISE", "TEX_GABOR", "VERTEX_COLOR", "NORMAL_MAP", "BUMP",
+}
+OPAQUE_NOW = ("transparent", "glass", "transmission", "holdout", "ray portal")
+UV_ATTRIBUTE = "rnmbake albedo"
+
+
+class Source:
+    """A material of the scene, or None for an empty slot; what it becomes where it is uniform."""
+
+    def __init__(self, material):
+        self.material = material
+        nodes = surface_nodes(material)
+        self.uniform = all(is_uniform(node) for node in nodes)
+        self.mesh_bound = all(is_uniform(node) or is_mesh_bound(node) for node in nodes)
+        about = describe_material(material) if material else {"emissive": False, "outside_model": []}
+        self.emissive = about["emissive"]
+        self.opaque_now = [what for what in about["outside_model"] if what in OPAQUE_NOW]
+        self.bakeable, self._texture = make_bakeable(material)
+        self.plain = None
+
+    @property
+    def name(self):
+        return self.material.name_full if self.material else ""
+
+    def write_to(self, image):
+        self._texture.image = image
+
+
+def surface_nodes(material):
+    output = active_output(material) if material else None
+    return list(reachable_nodes(output.inputs["Surface"])) if output else []
+
+
+def is_uniform(node):
+    return node.type in UNIFORM or node.type.startswith("BSDF_")
+
+
+def is_mesh_bound(node):
+    if node.type == "TEX_COORD":
+        return not any(out.is_linked for out in node.outputs if out.name not in ("UV", "Generated"))
+    if node.type == "ATTRIBUTE":
+        return node.attribute_type == "GEOMETRY"
+    return node.type in MESH_BOUND
+
+
+def new_tree(material):
+    """An empty node tree with an output; returns the nodes, the links and the output's surface socket."""
+    if not material.use_nodes:
+        material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    return tree.nodes, tree.links, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"]
+
+
+def make_bakeable(material):
+    """A copy that Cycles shades alike, and the image node in it that tells a bake where to write."""
+    copy = material.copy() if material else bpy.data.materials.new("rnmbake empty slot")
+    if material is None or not material.use_nodes or material.node_tree is None:
+        color = tuple(material.diffuse_color)[:3] if material else (0.8, 0.8, 0.8)  # what Cycles shows
+        make_lambert(copy, color, (0, 0, 0))
+    nodes = copy.node_tree.nodes
+    texture = nodes.new("ShaderNodeTexImage")
+    for node in nodes:
+        node.select = node == texture
+    nodes.active = texture
+    return copy, texture
+
+
+def make_lambert(material, color, emission):
+    """Diffuse BSDF of roughness 0 and emission. Each of the two is a colour, or an output socket's maker."""
+    nodes, links, surface = new_tree(material)
+    shader = nodes.new("ShaderNodeBsdfDiffuse")
+    shader.inputs["Roughness"].default_value = 0
+    _feed(nodes, links, shader.inputs["Color"], color)
+    if callable(emission) or any(emission):
+        glow, both = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeAddShader")
+        glow.inputs["Strength"].default_value = 1
+        _feed(nodes, links, glow.inputs["Color"], emission)
+        links.new(shader.outputs[0], both.inputs[0])
+        links.new(glow.outputs[0], both.inputs[1])
+        shader = both
+    links.new(shader.outputs[0], surface)
+
+
+def _feed(nodes, links, socket, value):
+    if callable(value):
+        links.new(value(nodes, links), socket)
+    else:
+        socket.default_value = (*value, 1)
+
+
+def picture(image, uv_layer, at_most_one=False):
+    """Makes the output of an image texture, read through a UV layer or, where that is None, UV_ATTRIBUTE."""
+    def make(nodes, links):
+        texture = nodes.new("ShaderNodeTexImage")
+        texture.image, texture.interpolation, texture.extension = image, "Linear", "EXTEND"
+        if uv_layer:
+            place = nodes.new("ShaderNodeUVMap")
+            place.uv_map = uv_layer
+            links.new(place.outputs["UV"], texture.inputs["Vector"])
+        else:
+            place = nodes.new("ShaderNodeAttribute")
+            place.attribute_name = UV_ATTRIBUTE
+            links.new(place.outputs["Vector"], texture.inputs["Vector"])
+        if not at_most_one:
+            return texture.outputs["Color"]
+        least = nodes.new("ShaderNodeVectorMath")
+        least.operation = "MINIMUM"
+        links.new(texture.outputs["Color"], least.inputs[0])
+        least.inputs[1].default_value = (1, 1, 1)
+        return least.outputs["Vector"]
+    return make
+
+
+def stand_in(source, color, emission):
+    """The lambert material for a source, which keeps its name for those who ask (--split material)."""
+    material = bpy.data.materials.new(source.name or "rnmbake empty slot")
+    material[LABEL_PROPERTY] = source.name
+    make_lambert(material, color, emission)
+    return material
