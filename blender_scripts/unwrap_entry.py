@@ -16,6 +16,9 @@ import bpy  # noqa: E402
 from core import task as core_task  # noqa: E402
 from scene_ops.receivers import read_floats  # noqa: E402
 
+LEAST_AREA = 0.2  # of the square
+LEAST_MARGIN = 1e-3
+
 
 def main(task):
     meshes = task.request["meshes"]
@@ -23,10 +26,7 @@ def main(task):
         for number, entry in enumerate(meshes):
             task.progress("unwrap", entry["label"], number, len(meshes))
             ob = make_object(entry, source)
-            unwrap(ob, entry["margin"])
-            uv = array("f", bytes(8 * entry["loops"]))
-            ob.data.uv_layers.active.data.foreach_get("uv", uv)
-            uv.tofile(out)
+            unwrap_usefully(ob, entry["margin"]).tofile(out)
             bpy.data.meshes.remove(ob.data)
     return {"file": "unwrapped.f32"}
 
@@ -53,6 +53,27 @@ def make_object(entry, source):
     ob = bpy.data.objects.new("unwrap", mesh)
     bpy.context.scene.collection.objects.link(ob)
     return ob
+
+
+def unwrap_usefully(ob, margin):
+    """UVs of all corners. Many charts with a wide margin between them shrink to nothing: then it is narrowed."""
+    while True:
+        unwrap(ob, margin)
+        uvs = array("f", bytes(8 * len(ob.data.loops)))
+        ob.data.uv_layers.active.data.foreach_get("uv", uvs)
+        if margin < LEAST_MARGIN or area(uvs, ob.data) > LEAST_AREA:
+            return uvs
+        margin /= 4
+
+
+def area(uvs, mesh):
+    """Share of the square that the polygons fill."""
+    total = 0
+    for polygon in mesh.polygons:
+        first, size = 2 * polygon.loop_start, 2 * polygon.loop_total
+        x, y = uvs[first:first + size:2], uvs[first + 1:first + size:2]
+        total += abs(sum(x[k - 1] * y[k] - x[k] * y[k - 1] for k in range(len(x)))) / 2
+    return total
 
 
 def unwrap(ob, margin):
