@@ -23,7 +23,7 @@ double diagonal_of(const Mesh& mesh, const Mat44& matrix) {
   return (high - low).length();
 }
 
-/// Draws the corners in by `distance` from each edge, at most by a twentieth of the way to the middle: light
+/// Draws the corners in by `distance` from each edge, at most by a twelfth of the way to the middle: light
 /// from just below a face must not slip past an open edge to a receiver that stands off it.
 void shrink(SurfaceTriangle& triangle, double distance) {
   auto& k = triangle.corners;
@@ -68,7 +68,7 @@ Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset,
     const double height = lift(triangle.corners[0].position, diagonal);
     for (SurfaceCorner& corner : triangle.corners)
       corner.position += triangle.normal * static_cast<float>(height);
-    shrink(triangle, 25 * height);
+    shrink(triangle, 40 * height);  // covers rays 3 degrees below the face, 5.x doubles the height
     if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
     surface.triangles.push_back(triangle);
   }
