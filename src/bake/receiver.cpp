@@ -11,8 +11,9 @@ namespace {
 
 using Horizon = ObjectSettings::Horizon;
 
-const float lowest_sine = std::sin(float(pi) / 180.0F);  // normals of a receiver: at most 89 degrees off
-const float moment_sine = std::sin(0.1F * float(pi) / 180.0F);  // tangents of the face: 89.9 degrees off
+/// Normals of a receiver, tangents of the face among them: at most 89.95 degrees off it. Blender keeps corner
+/// normals to about 0.006 degrees.
+const float lowest_sine = std::sin(0.05F * float(pi) / 180.0F);
 
 using CornerNormals = std::array<Vec3, 3>;
 
@@ -114,7 +115,7 @@ class SheetMaker {
     const FaceAxes axes = face_axes(triangle.normal);
     const std::array<Vec3, 5> directions{axes.t1, -axes.t1, axes.t2, -axes.t2, triangle.normal};
     for (std::size_t m = 0; m < directions.size(); ++m) {
-      const Vec3 n = raise_above(directions[m], triangle.normal, moment_sine);
+      const Vec3 n = raise_above(directions[m], triangle.normal, lowest_sine);
       append(moments_[m], triangulate(polygon), triangle, {n, n, n}, [&n](const Vec3&) { return n; });
     }
   }

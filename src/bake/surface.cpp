@@ -31,7 +31,7 @@ void shrink(SurfaceTriangle& triangle, double distance) {
              c = k[0].position - k[2].position;
   const double perimeter = double(a.length()) + b.length() + c.length();
   const double inradius = a.cross(b).length() / perimeter;
-  const auto share = static_cast<float>(std::min(0.02, distance / inradius));  // also where it is NaN
+  const auto share = static_cast<float>(std::min(0.08, distance / inradius));  // also where it is NaN
   const Vec3 middle = (k[0].position + k[1].position + k[2].position) / 3.0F;
   for (SurfaceCorner& corner : k) corner.position += (middle - corner.position) * share;
 }
