@@ -14,7 +14,7 @@ import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
-from scene_ops import cycles, flat_normal_map, load, receivers  # noqa: E402
+from scene_ops import cycles, flat_normal_map, glow, load, receivers  # noqa: E402
 
 
 def main(task):
@@ -22,6 +22,7 @@ def main(task):
     load.open_scene(task)
     scene = bpy.context.scene
     if task.request["recipe"] == "receiver":
+        glow.leave_large_emitters_to_chance()
         return bake_receivers(task, scene)
     return flat_normal_map.bake_targets(task, scene)
 
