@@ -3,6 +3,7 @@
 #include "bake/assemble.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "lightmap/layout.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,21 +18,6 @@ MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& not
   options.dilate = note.dilate;
   options.repair = output.repair;
   return options;
-}
-
-bool is_shared(const Layer& layer) {
-  return layer.name == "coverage" || layer.name == "tangent" || layer.name == "normal";
-}
-
-/// The image of one basis for --layout files: its layer becomes the plain R, G, B.
-LayeredImage single(const LayeredImage& image, const Layer& layer) {
-  LayeredImage one;
-  one.layers.push_back(layer);
-  one.layers.front().name.clear();
-  for (const Layer& other : image.layers) {
-    if (is_shared(other)) one.layers.push_back(other);
-  }
-  return one;
 }
 
 void warn_about(const std::string& key, const MergeCounts& counts, bool repaired) {
@@ -63,7 +49,8 @@ void DeliveryDesk::take(const Dispatch& dispatch, const DispatchLayout& layout,
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const std::size_t tile = layout.tiles[i];
-      shelves_[context_.plan.tiles[tile].target].pictures[tile] = std::move(pictures[i]);
+      const std::size_t target = context_.plan.tiles[tile].target;
+      if (!deliveries_[target]) shelves_[target].pictures[tile] = std::move(pictures[i]);
     }
     for (const std::size_t unit : dispatch.units) {
       const std::size_t target = context_.plan.units[unit].target;
@@ -105,7 +92,11 @@ Delivery DeliveryDesk::finish(std::size_t target_index, Shelf shelf) const {
         assemble(target, tiles, pictures, context_.bases, note.surface.get(), output_.frames);
     MergedLightmap merged = merge(bakes, merge_options(output_, note));
     warn_about(target.key, merged.counts, output_.repair);
-    return Delivered{write(note, merged.image), merged.counts};
+    LightmapMetadata metadata = note.metadata;
+    metadata.bases = context_.bases;
+    metadata.repaired = merged.counts.repaired > 0;
+    write_metadata(metadata, merged.image);
+    return Delivered{write(note.stem, std::move(merged.image)), merged.counts};
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
     log::error("{}", error.what());
@@ -113,22 +104,18 @@ Delivery DeliveryDesk::finish(std::size_t target_index, Shelf shelf) const {
   }
 }
 
-std::vector<std::string> DeliveryDesk::write(const DeliveryNote& note, const LayeredImage& image) const {
+std::vector<std::string> DeliveryDesk::write(const std::string& stem, LayeredImage image) const {
   const Depth depth = output_.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
-  const auto save = [&](const std::string& name, LayeredImage content,
-                        const std::vector<BasisDirection>& bases) {
-    LightmapMetadata metadata = note.metadata;
-    metadata.bases = bases;
-    write_metadata(metadata, content);
-    write_exr(output_.dir / name, content, depth);
-    return name;
-  };
-  if (output_.layout == OutputSettings::Layout::layers)
-    return {save(note.stem + ".exr", image, context_.bases)};
   std::vector<std::string> files;
-  for (const BasisDirection& basis : context_.bases) {
-    const Layer* layer = image.find(basis.name == "flat" ? "" : basis.name);
-    files.push_back(save(note.stem + "." + basis.name + ".exr", single(image, *layer), {basis}));
+  const auto save = [&](const std::string& name, const LayeredImage& content) {
+    write_exr(output_.dir / name, content, depth);
+    files.push_back(name);
+  };
+  if (output_.layout == OutputSettings::Layout::layers) {
+    save(stem + ".exr", image);
+  } else {
+    for (const LayerFile& file : one_file_per_layer(std::move(image)))
+      save(stem + "." + file.name + ".exr", file.image);
   }
   return files;
 }

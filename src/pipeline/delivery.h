@@ -58,7 +58,7 @@ class DeliveryDesk {
     std::map<std::size_t, FloatImage> pictures;  // by tile
   };
   [[nodiscard]] Delivery finish(std::size_t target, Shelf shelf) const;
-  [[nodiscard]] std::vector<std::string> write(const DeliveryNote& note, const LayeredImage& image) const;
+  [[nodiscard]] std::vector<std::string> write(const std::string& stem, LayeredImage image) const;
 
   BakeContext context_;
   OutputSettings output_;

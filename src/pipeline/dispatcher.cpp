@@ -15,6 +15,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <variant>
 
 namespace rnmbake {
 namespace {
@@ -104,11 +105,25 @@ class Dispatcher {
         launch, workspace_.limits(), [&](const ProgressEvent& event) { show(task.dispatch, event); });
     if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
       recover(std::move(task), *failure);
+    } else if (auto tiles = tiles_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&tiles)) {
+      recover(std::move(task), *lost);
     } else {
-      desk_.take(task.dispatch, request.layout, read_tiles(request.layout, context_.plan, launch.folder));
+      desk_.take(task.dispatch, request.layout, std::get<0>(std::move(tiles)));
       count(task.dispatch, std::get<Finished>(outcome));
     }
     if (!workspace_.settings().output.keep_temporary) fs::remove_all(launch.folder);
+  }
+
+  /// A launch whose pictures are missing or short failed, whatever it said; a smaller one may do.
+  std::variant<std::vector<FloatImage>, LaunchFailure> tiles_of(const DispatchLayout& layout,
+                                                                const fs::path& folder) const {
+    try {
+      return read_tiles(layout, context_.plan, folder);
+    } catch (const Error& error) {
+      LaunchFailure failure;
+      failure.message = error.what();
+      return failure;
+    }
   }
 
   BakeRequest make_request(const Dispatch& dispatch, const fs::path& folder) const {
@@ -131,6 +146,7 @@ class Dispatcher {
       const std::lock_guard lock(mutex_);
       ++timings_.launches;
       ++timings_.failed_launches;
+      running_work_.erase(task.dispatch.units.front());
     }
     const bool hopeless =
         failure.kind == LaunchFailure::Kind::stopped ||

@@ -1,0 +1,176 @@
+// tests/pipeline/fixture.h - a plan over invented objects and a Blender that fails on demand.
+#pragma once
+
+#include "base/files.h"
+#include "blender/launch.h"
+#include "config/resolve.h"
+#include "pipeline/delivery.h"
+#include "pipeline/dispatcher.h"
+#include "pipeline/workspace.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+
+/// What a launch bakes: pairs of target and basis.
+using Baked = std::set<std::pair<std::size_t, std::size_t>>;
+
+/// Stands in for crashes, hangs and kills that a real Blender cannot be asked for. What it is not told to
+/// fail it bakes to grey. Receivers tell it what they are by their position (x: target, y: basis).
+class FakeBlender : public Blender {
+ public:
+  /// Decides how a launch ends; nothing: well.
+  std::function<std::optional<LaunchFailure>(const Baked&)> fault = [](const Baked&) { return std::nullopt; };
+  bool short_pictures = false;
+  std::vector<Baked> launches;
+
+  [[nodiscard]] const BlenderInfo& info() const override { return info_; }
+
+  LaunchOutcome run(const Launch& launch, const LaunchLimits& /*limits*/,
+                    const std::function<void(const ProgressEvent&)>& on_progress) override {
+    const Baked baked = contents(launch);
+    {
+      const std::lock_guard lock(mutex_);
+      launches.push_back(baked);
+    }
+    on_progress({"bake", "atlas 1", 1, 2});
+    if (auto failure = fault(baked)) return *failure;
+    for (const auto& atlas : launch.request.at("atlases")) write_pixels(launch.folder, atlas);
+    Finished finished;
+    finished.result = {
+        {"atlases", {{{"prepare_seconds", 0.25}, {"bake_seconds", 0.5}, {"save_seconds", 0.125}}}}};
+    finished.wall_seconds = 1;
+    finished.peak_bytes = 1000 * baked.size();
+    return finished;
+  }
+
+ private:
+  static Baked contents(const Launch& launch) {
+    Baked baked;
+    for (const auto& atlas : launch.request.at("atlases")) {
+      std::ifstream in(launch.folder / atlas.at("arrays").get<std::string>(), std::ios::binary);
+      for (const auto& group : atlas.at("groups")) {
+        std::vector<float> values(group.at("corners").get<std::size_t>() * 8);
+        in.read(reinterpret_cast<char*>(values.data()), std::streamsize(values.size() * sizeof(float)));
+        for (std::size_t i = 0; i < values.size() / 8 * 3; i += 3)
+          baked.emplace(std::size_t(values[i]), std::size_t(values[i + 1]));
+      }
+    }
+    return baked;
+  }
+
+  void write_pixels(const std::filesystem::path& folder, const nlohmann::json& atlas) const {
+    const std::size_t count = atlas.at("width").get<std::size_t>() * atlas.at("height").get<std::size_t>();
+    std::vector<float> pixels(4 * count, 0.5F);
+    for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = 1;
+    if (short_pictures) pixels.pop_back();
+    std::ofstream(folder / atlas.at("pixels").get<std::string>(), std::ios::binary)
+        .write(reinterpret_cast<const char*>(pixels.data()), std::streamsize(pixels.size() * sizeof(float)));
+  }
+
+  BlenderInfo info_;
+  std::mutex mutex_;
+};
+
+inline LaunchFailure failure(LaunchFailure::Kind kind, const std::string& message, int code = 0) {
+  LaunchFailure result;
+  result.kind = kind;
+  result.message = message;
+  result.code = code;
+  return result;
+}
+
+/// `count` objects named object0, object1, ... whose only face fills an 8 x 8 map, baked for four bases.
+class Invented {
+ public:
+  explicit Invented(std::size_t count, const BakeSettings& settings = {}) : config_(make_config(settings)) {
+    config_.globals.output.dir = folder_.path();
+    bases_.push_back(flat_direction());
+    for (const BasisDirection& basis : rnm_set().directions) bases_.push_back(basis);
+    survey_.meshes.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) add_object(i);
+    group_units(plan_, config_.globals.bake.dispatch);
+  }
+
+  [[nodiscard]] BakeContext context() const { return {survey_, targets_, bases_, plan_}; }
+  [[nodiscard]] const ResolvedConfig& config() const { return config_; }
+  [[nodiscard]] BakeSettings& settings() { return config_.globals; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+  [[nodiscard]] std::vector<DeliveryNote>& notes() { return notes_; }
+
+  [[nodiscard]] std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+ private:
+  static ResolvedConfig make_config(const BakeSettings& settings) {
+    ResolvedConfig config = resolve({}, {}, {});
+    config.globals = settings;
+    if (settings.bake.dispatch == BakingSettings::Dispatch::automatic)
+      config.globals.bake.dispatch = BakingSettings::Dispatch::scene;
+    return config;
+  }
+
+  void add_object(std::size_t index) {
+    const std::string name = "object" + std::to_string(index);
+    SceneObject object;
+    object.key = object.name = name;
+    object.mesh = 0;
+    survey_.objects.push_back(object);
+    Target target;
+    target.object = index;
+    target.key = name;
+    target.width = target.height = 8;
+    Sheets sheets;
+    for (std::size_t b = 0; b < bases_.size(); ++b) {
+      const Vec3 id(static_cast<float>(index), static_cast<float>(b), 0), up(0, 0, 1);
+      sheets.sheets.push_back(
+          {Sheet::Role::basis, b, {{id, up, {0, 0}}, {id, up, {1, 0}}, {id, up, {1, 1}}}});
+    }
+    add_receiver_units(plan_, index, target, std::move(sheets), bases_, {});
+    targets_.push_back(std::move(target));
+    DeliveryNote note;
+    note.stem = name;
+    note.metadata.object = name;
+    notes_.push_back(note);
+  }
+
+  TempFolder folder_;
+  ResolvedConfig config_;
+  Survey survey_;
+  std::vector<Target> targets_;
+  std::vector<BasisDirection> bases_;
+  Plan plan_;
+  std::vector<DeliveryNote> notes_;
+};
+
+inline bool is_delivered(const DeliveryDesk& desk, std::size_t target) {
+  const Delivery& delivery = desk.deliveries()[target];
+  return delivery && std::holds_alternative<Delivered>(*delivery);
+}
+
+/// Why a target was given up; "" if it was not.
+inline std::string reason_of(const DeliveryDesk& desk, std::size_t target) {
+  const Delivery& delivery = desk.deliveries()[target];
+  const auto* given_up = delivery ? std::get_if<NotDelivered>(&*delivery) : nullptr;
+  return given_up != nullptr ? given_up->reason : "";
+}
+
+}  // namespace rnmbake
