@@ -55,7 +55,9 @@ LightmapMetadata assumed_metadata(const DecodeOptions& options, const std::strin
 }
 
 LightmapMetadata metadata_of(const DecodeOptions& options, const LayeredImage& image) {
-  if (image.attributes.contains("rnmbake:layer")) {
+  const auto layer = image.attributes.find("rnmbake:layer");
+  const bool is_flat = layer != image.attributes.end() && layer->second == Attribute(std::string("flat"));
+  if (layer != image.attributes.end() && !(is_flat && variant_of(options) == DecodeVariant::single)) {
     refuse(options, "it holds one layer of a lightmap only",
            "decode the file of a bake with --layout layers");
   }

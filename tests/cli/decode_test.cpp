@@ -3,6 +3,7 @@
 #include "basis/rnm.h"
 #include "cli/app.h"
 #include "image/layered_exr.h"
+#include "lightmap/layout.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"
 
@@ -103,6 +104,18 @@ TEST_F(DecodeCommand, PlainPicturesAreNotLightmaps) {
   EXPECT_EQ(decode({path("plain.exr"), "--normal-vector", "0,0,1"}), 5);
   EXPECT_EQ(decode({path("plain.exr"), "--normal-vector", "0,0,1", "--force"}), 5);  // there are no maps
   EXPECT_EQ(decode({path("plain.exr"), "--normal-vector", "0,0,1", "--force", "--variant", "single"}), 0);
+}
+
+TEST_F(DecodeCommand, OfOneLayerOnlyTheFlatBakeIsComplete) {
+  for (const LayerFile& file : one_file_per_layer(read_image(sky("sky.exr")))) {
+    write_exr(path(file.name + ".exr"), file.image, Depth::full);
+    const std::vector<std::string> call{path(file.name + ".exr"), "--normal-vector", "0,0,1"};
+    EXPECT_EQ(decode(call), 5);
+    EXPECT_TRUE(said("--layout layers")) << said_;
+    EXPECT_EQ(decode({call[0], call[1], call[2], "--variant", "single"}), file.name == "flat" ? 0 : 5)
+        << said_;
+  }
+  EXPECT_EQ(result(), 1);
 }
 
 TEST_F(DecodeCommand, BadCallsAndFiles) {
