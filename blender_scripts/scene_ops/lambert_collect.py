@@ -71,13 +71,26 @@ def _visit(depsgraph, scene):
         evaluated = instance.object
         shared = evaluated.data.as_pointer()
         if shared not in meshes:
-            meshes[shared] = bpy.data.meshes.new_from_object(evaluated)
+            meshes[shared] = _copy_mesh(evaluated)
         surface.data = meshes[shared]
         surface.materials = [_original(override or slot.material) for slot in evaluated.material_slots]
         scene.surfaces.append(surface)
     for instance in depsgraph.object_instances:
         if instance.show_self:
             _add_other(instance, scene)
+
+
+def _copy_mesh(ob):
+    mesh = bpy.data.meshes.new_from_object(ob)
+    if ob.original.type == "META":  # their normals are the field's own and get lost in a copy
+        if hasattr(mesh, "use_auto_smooth"):  # <= 4.0
+            mesh.use_auto_smooth = True
+            ob.data.calc_normals_split()
+            normals = [tuple(loop.normal) for loop in ob.data.loops]
+        else:
+            normals = [tuple(corner.vector) for corner in ob.data.corner_normals]
+        mesh.normals_split_custom_set(normals)
+    return mesh
 
 
 def _add_other(instance, scene):
