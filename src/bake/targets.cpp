@@ -90,9 +90,9 @@ std::optional<int> choose_tangent_uv(const Mesh& mesh, const ObjectSettings& set
          "object '{}' has no UV layer '{}' for its tangents (it has {}): name another with --tangent-uv",
          object, settings.tangent_uv, layer_names(mesh));
   }
-  if (mesh.render_uv >= 0) return mesh.render_uv;
-  if (!mesh.uv_layers.empty()) return 0;
-  return std::nullopt;
+  const int layer = mesh.render_uv >= 0 ? mesh.render_uv : 0;
+  if (mesh.uv_layers.empty() || !has_area(mesh, layer)) return std::nullopt;
+  return layer;
 }
 
 Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const std::vector<Vec2>& uv,

@@ -24,7 +24,8 @@ struct UvChoice {
 [[nodiscard]] UvChoice choose_lightmap_uv(const Mesh& mesh, const ObjectSettings& settings,
                                           const std::string& object);
 
-/// The normal map's layer: the one named, else active-render, else the first; empty: the object has none.
+/// The normal map's layer: the one named, else active-render, else the first; empty: the object has none, or
+/// its UVs have no area.
 [[nodiscard]] std::optional<int> choose_tangent_uv(const Mesh& mesh, const ObjectSettings& settings,
                                                    const std::string& object);
 
