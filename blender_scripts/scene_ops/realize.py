@@ -40,7 +40,7 @@ def realize(keys, every=False):
         return {}
     found = {}
     with_render_depsgraph(lambda depsgraph: _collect(depsgraph, keys, every, found))
-    originals = {bpy.data.objects[name] for name in found["replaced"] if name in bpy.data.objects}
+    originals = [ob for ob in bpy.data.objects if ob.name_full in found["replaced"]]  # linked ones have their file
     objects = {key: _make_object(key, **content) for key, content in found["copies"].items()}
     for ob in originals:
         ob.hide_render = True

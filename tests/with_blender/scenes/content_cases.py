@@ -75,7 +75,8 @@ def modifiers():
     keyed = cube("shape_keys")
     keyed.shape_key_add(name="Basis")
     key = keyed.shape_key_add(name="Tall")
-    key.data[7].co.z = 3
+    for top in (1, 3, 5, 7):  # all four: polygons stay flat
+        key.data[top].co.z = 1.8
     key.value = 1
     keyed_bare = cube("shape_keys_bare", cube_mesh("shape_keys_bare", lightmap=False))
     keyed_bare.shape_key_add(name="Basis")
