@@ -192,7 +192,7 @@ class BakeRun {
   }
 
   int report(const DeliveryDesk& desk, const BakeTimings& timings) {
-    const std::string with_uvs = save_scene_with_uvs(workspace_, scene_.survey, scene_.blend, list_.targets);
+    const std::string with_uvs = save_scene_with_uvs(workspace_, scene_.survey, scene_.own, list_.targets);
     const auto manifest =
         make_manifest({settings_, scene_.survey, list_, bases_, notes_, horizons_, desk.deliveries(),
                        name_of(resolve_dispatch(settings_.bake)), with_uvs, timings});

@@ -29,7 +29,7 @@ std::string save_scene_with_uvs(Workspace& workspace, const Survey& survey, cons
                                 const std::vector<Target>& targets) {
   Launch launch;
   launch.entry = "save_uvs_entry.py";
-  launch.scene = blend;
+  if (blend.extension() == ".blend") launch.scene = blend;  // glTF is imported by the script
   launch.request = scene_request(workspace, blend);
   launch.request["objects"] = nlohmann::json::array();
   launch.folder = workspace.new_folder("save-uvs");

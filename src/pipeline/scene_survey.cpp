@@ -51,6 +51,8 @@ SurveyedScene survey_scene(Workspace& workspace) {
   if (const auto imported = answer.find("blend"); imported != answer.end() && imported->is_string()) {
     result.blend = folder / imported->get<std::string>();
   }
+  const bool lambert = scene.materials == SceneSettings::Materials::lambert;
+  result.own = lambert ? fs::absolute(scene.file) : result.blend;
   for (const std::string& warning : result.survey.warnings) log::warn("{}", warning);
   if (result.survey.objects.empty()) {
     fail(ExitCode::invalid_input,

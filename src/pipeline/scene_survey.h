@@ -11,6 +11,7 @@ namespace rnmbake {
 struct SurveyedScene {
   Survey survey;
   std::filesystem::path blend;  // what later launches open: the scene, or a .blend made from it
+  std::filesystem::path own;    // the same with the user's own materials
 };
 
 /// Imports glTF, replaces the materials for --materials lambert, surveys. Logs what Blender warns of.
