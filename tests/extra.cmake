@@ -28,3 +28,8 @@ foreach(CHECK files.Scenes files.Folders content.Content content.Names content.S
             -v ${CLASS})
   set_tests_properties(bad_input.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
 endforeach()
+
+add_test(NAME manifest.schema
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
+set_tests_properties(manifest.schema PROPERTIES LABELS blender TIMEOUT 1200)

@@ -14,8 +14,9 @@ json to_json(const MergeCounts& counts) {
           {"negative", counts.negative},      {"unscalable", counts.unscalable}};
 }
 
-json to_json(const HorizonCounts& counts) {
-  return {{"corners", counts.corners},
+json to_json(const HorizonCounts& counts, const std::string& treatment) {
+  return {{"treatment", treatment},
+          {"corners", counts.corners},
           {"corners_below", counts.corners_below},
           {"triangles", counts.triangles},
           {"triangles_below", counts.triangles_below}};
@@ -48,7 +49,7 @@ json describe_object(const ManifestInput& input, std::size_t index) {
              {"green", name_of(metadata.green)},
              {"samples", metadata.samples},
              {"seed", metadata.seed},
-             {"horizon", to_json(input.horizons[index])}};
+             {"horizon", to_json(input.horizons[index], metadata.horizon)}};
   const auto& delivery = input.deliveries[index];
   if (const auto* delivered = delivery ? std::get_if<Delivered>(&*delivery) : nullptr) {
     entry["status"] = "baked";

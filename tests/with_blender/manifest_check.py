@@ -1,0 +1,119 @@
+"""Holds the manifests of real bakes against docs/manifest.schema.json, and two runs of one bake against each other.
+
+    RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/manifest_check.py
+"""
+import copy
+import json
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import jsonschema
+
+HERE = Path(__file__).resolve().parent
+SCHEMA = json.loads((HERE.parents[1] / "docs" / "manifest.schema.json").read_text(encoding="utf-8"))
+LIMIT_SECONDS = 300
+TASKS_FAILED = 6  # docs/exit-codes.md
+
+
+def blender():
+    found = os.environ.get("RNMBAKE_BLENDER") or shutil.which("blender")
+    if not found:
+        raise unittest.SkipTest("SKIPPED: no Blender to test with")
+    return found
+
+
+def is_valid(manifest):
+    return jsonschema.Draft202012Validator(SCHEMA).is_valid(manifest)
+
+
+class Manifest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        jsonschema.Draft202012Validator.check_schema(SCHEMA)
+        folder = tempfile.TemporaryDirectory(prefix="rnmbake-manifest-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.scene = cls.folder / "things.blend"
+        subprocess.run([blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", "--python",
+                        str(HERE / "scenes" / "manifest_cases.py"), "--", str(cls.scene)],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=LIMIT_SECONDS)
+        cls.manifest = cls.bake("first", "--threads", "1")
+
+    @classmethod
+    def bake(cls, name, *flags):
+        """Returns the manifest of a bake in which one object fails."""
+        env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
+        env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1")
+        done = subprocess.run(
+            [os.environ["RNMBAKE_BINARY"], "bake", str(cls.scene), "-o", str(cls.folder / name), "--exclude",
+             "left out", "--resolution", "16", "--samples", "2", "--retries", "0", *flags],
+            env=env, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        if done.returncode != TASKS_FAILED:
+            raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
+        return json.loads((cls.folder / name / "manifest.json").read_text(encoding="utf-8"))
+
+    def assert_valid(self, manifest):
+        errors = [f"{error.json_path}: {error.message}"
+                  for error in jsonschema.Draft202012Validator(SCHEMA).iter_errors(manifest)]
+        self.assertEqual(errors, [])
+
+    def test_fits_the_schema(self):
+        self.assert_valid(self.manifest)
+
+    def test_says_what_happened(self):
+        objects = {entry["key"]: entry for entry in self.manifest["objects"]}
+        self.assertEqual(sorted(objects), ["dust", "floor", "smooth"])
+        self.assertEqual(objects["dust"]["status"], "failed")
+        self.assertIn("no texel", objects["dust"]["error"])
+        self.assertEqual(objects["floor"]["coverage"], 1)
+        self.assertFalse(objects["floor"]["unwrapped"])
+        self.assertEqual(objects["floor"]["horizon"]["corners_below"], 0)
+        self.assertTrue(objects["smooth"]["unwrapped"])
+        self.assertGreater(objects["smooth"]["horizon"]["corners_below"], 0)
+        self.assertEqual([entry["key"] for entry in self.manifest["skipped"]], ["left out"])
+        self.assertEqual(self.manifest["dispatch"], "scene")
+
+    def test_lists_the_files_that_are_there(self):
+        listed = [name for entry in self.manifest["objects"] for name in entry["files"]]
+        listed += ["manifest.json", self.manifest["scene_with_uvs"]]
+        self.assertEqual(sorted(listed), sorted(path.name for path in (self.folder / "first").iterdir()))
+
+    def test_repeats_bit_by_bit(self):
+        again = self.bake("again", "--threads", "2")
+        for manifest in (self.manifest, again):
+            self.assertIn("timings", manifest)
+        self.assertEqual({**self.manifest, "timings": 0}, {**again, "timings": 0})
+        for entry in self.manifest["objects"]:
+            for name in entry["files"]:
+                self.assertEqual((self.folder / "first" / name).read_bytes(), (self.folder / "again" / name).read_bytes(),
+                                 name)
+
+    def test_of_other_settings_fits_too(self):
+        manifest = self.bake("other", "--layout", "files", "--recipe", "flat-normal-map", "--dispatch", "object",
+                             "--bases", "rnm2,flat", "--flip-green", "--split", "loose", "--save-scene", "never")
+        self.assert_valid(manifest)
+        floor = next(entry for entry in manifest["objects"] if entry["object"] == "floor")
+        self.assertEqual(len(floor["files"]), 3)  # rnm2, flat, coverage
+        self.assertEqual(floor["green"], "y-down")
+        self.assertEqual(manifest["scene_with_uvs"], "")
+
+    def test_schema_is_strict(self):
+        for path in ((), ("conventions",), ("objects", 0), ("objects", 0, "horizon"), ("bases", 0), ("timings",)):
+            spoilt = copy.deepcopy(self.manifest)
+            place = spoilt
+            for step in path:
+                place = place[step]
+            for key in list(place):
+                value = place.pop(key)
+                self.assertFalse(is_valid(spoilt), f"{path} without {key}")
+                place[key] = value
+            place["surprise"] = 1
+            self.assertFalse(is_valid(spoilt), f"{path} with more")
+
+
+if __name__ == "__main__":
+    unittest.main()
