@@ -29,30 +29,33 @@ def main(task):
 
 def bake_receivers(task, scene):
     cycles.apply_settings(scene, task.request["cycles"])
-    timings = []
-    for index, atlas in enumerate(task.request["atlases"]):
-        timings.append(bake_atlas(task, scene, atlas, index))
+    atlases = task.request["atlases"]
+    total = sum(atlas["covered_texels"] for atlas in atlases)
+    done, timings = 0, []
+    for number, atlas in enumerate(atlases, 1):
+        name = f"atlas {number} of {len(atlases)}"
+        timings.append(bake_atlas(task, scene, atlas, lambda phase: task.progress(phase, name, done, total)))
+        done += atlas["covered_texels"]
+    task.progress("bake", name, total, total)
     return {"atlases": timings}
 
 
-def bake_atlas(task, scene, atlas, index):
+def bake_atlas(task, scene, atlas, say):
     """One image, filled by one bake call for each light-linking group among its receivers."""
-    name, texels = f"atlas {index + 1}", atlas["covered_texels"]
-    image = cycles.new_float_image(name, atlas["width"], atlas["height"])
+    image = cycles.new_float_image("rnmbake atlas", atlas["width"], atlas["height"])
     clock, prepare, bake = Stopwatch(), 0, 0
     with open(task.path(atlas["arrays"]), "rb") as stream:
         for number, group in enumerate(atlas["groups"]):
-            task.progress("build", name, 0, texels)
+            say("build")
             mesh = receivers.build_mesh("rnmbake receiver", stream, group["corners"])
             receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["like"])
             prepare += clock.lap()
-            task.progress("bake", name, 0, texels)
+            say("bake")
             cycles.bake_diffuse(scene, receiver, clear=number == 0)
             bake += clock.lap()
             bpy.data.meshes.remove(mesh)  # and with it the receiver
     cycles.save_pixels(image, task.path(atlas["pixels"]))
     bpy.data.images.remove(image)
-    task.progress("bake", name, texels, texels)
     return {"prepare_seconds": prepare, "bake_seconds": bake, "save_seconds": clock.lap()}
 
 

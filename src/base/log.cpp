@@ -110,6 +110,14 @@ void init(int verbosity, Format format) {
   state().colour = stderr_is_terminal() && (no_color == nullptr || *no_color == '\0');
 }
 
+bool is_quiet() {
+  return state().logger.level() >= spdlog::level::err;
+}
+
+bool is_jsonl() {
+  return state().format == Format::jsonl;
+}
+
 bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) == 1;
 }

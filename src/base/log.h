@@ -16,6 +16,10 @@ enum class Format { text, jsonl };
 /// NO_COLOR is set. May be called again; before the first call: information, text.
 void init(int verbosity, Format format);
 
+/// Whether `init` was told to say errors only, or to write JSON.
+bool is_quiet();
+bool is_jsonl();
+
 /// How text is coloured is decided by `init`; this says whether stderr is a terminal at all.
 bool stderr_is_terminal();
 

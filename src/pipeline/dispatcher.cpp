@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/progress.h"
 #include "pipeline/memory.h"
 #include "pipeline/scene_survey.h"
+#include "pipeline/work_progress.h"
 #include "process/stop.h"
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <thread>
 #include <variant>
@@ -39,6 +38,12 @@ double work_of(const Dispatch& dispatch, const Plan& plan) {
   return work;
 }
 
+double total_work(const Plan& plan) {
+  double work = 0;
+  for (const Dispatch& dispatch : plan.dispatches) work += work_of(dispatch, plan);
+  return work;
+}
+
 class Dispatcher {
  public:
   Dispatcher(Workspace& workspace, const BakeContext& context, fs::path blend, DeliveryDesk& desk)
@@ -47,10 +52,9 @@ class Dispatcher {
         blend_(std::move(blend)),
         desk_(desk),
         jobs_(choose_jobs(workspace.settings(), context.plan.dispatches.size())),
-        progress_("baking", progress_for(false, false)) {
+        progress_(total_work(context.plan)) {
     for (const Dispatch& dispatch : context.plan.dispatches) {
       queue_.push_back({dispatch, workspace.settings().run.retries});
-      total_work_ += work_of(dispatch, context.plan);
     }
   }
 
@@ -58,6 +62,7 @@ class Dispatcher {
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::thread> workers;
     for (int job = 0; job < jobs_; ++job) workers.emplace_back([this] { work(); });
+    watch();
     for (std::thread& worker : workers) worker.join();
     if (error_) std::rethrow_exception(error_);
     timings_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -65,6 +70,15 @@ class Dispatcher {
   }
 
  private:
+  /// Shows signs of life until nothing runs or waits any more.
+  void watch() {
+    std::unique_lock lock(mutex_);
+    while (running_ > 0 || (!queue_.empty() && !error_)) {
+      changed_.wait_for(lock, std::chrono::milliseconds(250));
+      progress_.tick();
+    }
+  }
+
   void work() {
     while (auto task = next()) {
       try {
@@ -146,8 +160,8 @@ class Dispatcher {
       const std::lock_guard lock(mutex_);
       ++timings_.launches;
       ++timings_.failed_launches;
-      running_work_.erase(task.dispatch.units.front());
     }
+    progress_.finish(task.dispatch.units.front(), 0);
     const bool hopeless =
         failure.kind == LaunchFailure::Kind::stopped ||
         (failure.kind == LaunchFailure::Kind::refused && failure.code == int(ExitCode::environment));
@@ -186,18 +200,13 @@ class Dispatcher {
         timings_.save_seconds += lap.value("save_seconds", 0.0);
       }
     }
-    running_work_.erase(dispatch.units.front());
-    done_work_ += work_of(dispatch, context_.plan);
-    progress_.update(done_work_ / total_work_, "");
+    progress_.finish(dispatch.units.front(), work_of(dispatch, context_.plan));
   }
 
   void show(const Dispatch& dispatch, const ProgressEvent& event) {
-    const std::lock_guard lock(mutex_);
-    if (event.total > 0)
-      running_work_[dispatch.units.front()] = work_of(dispatch, context_.plan) * event.done / event.total;
-    double work = done_work_;
-    for (const auto& [unit, part] : running_work_) work += part;
-    progress_.update(work / total_work_, event.what.empty() ? event.phase : event.phase + " " + event.what);
+    const double done = event.total > 0 ? work_of(dispatch, context_.plan) * event.done / event.total : 0;
+    progress_.advance(dispatch.units.front(), done,
+                      event.what.empty() ? event.phase : event.phase + " " + event.what);
   }
 
   Workspace& workspace_;
@@ -212,9 +221,7 @@ class Dispatcher {
   int running_ = 0;
   std::exception_ptr error_;
   BakeTimings timings_;
-  double total_work_ = 0, done_work_ = 0;
-  std::map<std::size_t, double> running_work_;  // by a dispatch's first unit
-  Progress progress_;
+  WorkProgress progress_;
 };
 
 }  // namespace

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
-#include <thread>
 
 namespace rnmbake {
 namespace {
 
-/// Texels x samples of one bake call for each core; about two minutes of diffuse scenes on a slow one.
-constexpr std::int64_t work_per_core = std::int64_t(1) << 26;
+/// Texels x samples of one bake call: minutes on two cores. The same on every machine, so that pictures are.
+constexpr std::int64_t work_per_call = std::int64_t(1) << 27;
 
 std::int64_t available_memory() {
   std::ifstream meminfo("/proc/meminfo");
@@ -42,10 +41,9 @@ std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& c
       receiver_corners += static_cast<std::int64_t>(context.plan.tiles[tile].sheet.corners.size());
     }
   }
-  const std::int64_t cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const std::int64_t samples = context.plan.units[dispatch.units.front()].cycles.samples;
   const std::int64_t patience =
-      std::max<std::int64_t>(work_per_core * cores / std::max<std::int64_t>(samples, 1), 1 << 18);
+      std::max<std::int64_t>(work_per_call / std::max<std::int64_t>(samples, 1), 1 << 18);
   const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);
   return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles(context.survey),
                       receiver_corners / 3);
