@@ -59,14 +59,20 @@ class SheetMaker {
   SheetMaker(const std::vector<BasisDirection>& bases, Horizon horizon)
       : bases_(bases), horizon_(horizon), above_(bases.size()), below_(bases.size()), moments_(5) {}
 
+  /// Room for as many triangles as most targets need: those that lie above their face and inside the map.
+  void reserve(std::size_t triangles) {
+    for (auto& corners : above_) corners.reserve(3 * triangles);
+  }
+
   void add(const SurfaceTriangle& triangle) {
     const WeightPolygon polygon = inside_map(triangle);
+    const std::vector<Weights> whole = triangulate(polygon);
     bool any_below = false;
-    for (std::size_t b = 0; b < bases_.size(); ++b) any_below |= add_basis(triangle, polygon, b);
+    for (std::size_t b = 0; b < bases_.size(); ++b) any_below |= add_basis(triangle, polygon, whole, b);
     ++counts_.triangles;
     if (!any_below) return;
     ++counts_.triangles_below;
-    if (horizon_ == Horizon::identity) add_moments(triangle, polygon);
+    if (horizon_ == Horizon::identity) add_moments(triangle, whole);
   }
 
   Sheets finish() {
@@ -85,8 +91,9 @@ class SheetMaker {
   }
 
  private:
-  /// Returns whether a corner of this basis lies under the face.
-  bool add_basis(const SurfaceTriangle& triangle, const WeightPolygon& polygon, std::size_t b) {
+  /// `whole`: the triangles of `polygon`. Returns whether a corner of this basis lies under the face.
+  bool add_basis(const SurfaceTriangle& triangle, const WeightPolygon& polygon,
+                 const std::vector<Weights>& whole, std::size_t b) {
     CornerNormals up, down;
     std::array<float, 3> height{}, depth{};
     std::size_t under = 0;
@@ -102,7 +109,7 @@ class SheetMaker {
     const auto legal = [&](const Vec3& n) { return raise_above(n, triangle.normal, lowest_sine); };
     if (under == 0 || horizon_ == Horizon::clamp) {
       for (Vec3& n : up) n = legal(n);
-      append(above_[b], triangulate(polygon), triangle, up, [](const Vec3& n) { return n.normalized(); });
+      append(above_[b], whole, triangle, up, [](const Vec3& n) { return n.normalized(); });
     } else {
       const int parts = parts_for(up);
       append(above_[b], triangulate(clip(polygon, height), parts), triangle, up, legal);
@@ -111,12 +118,12 @@ class SheetMaker {
     return under > 0;
   }
 
-  void add_moments(const SurfaceTriangle& triangle, const WeightPolygon& polygon) {
+  void add_moments(const SurfaceTriangle& triangle, const std::vector<Weights>& whole) {
     const FaceAxes axes = face_axes(triangle.normal);
     const std::array<Vec3, 5> directions{axes.t1, -axes.t1, axes.t2, -axes.t2, triangle.normal};
     for (std::size_t m = 0; m < directions.size(); ++m) {
       const Vec3 n = raise_above(directions[m], triangle.normal, lowest_sine);
-      append(moments_[m], triangulate(polygon), triangle, {n, n, n}, [&n](const Vec3&) { return n; });
+      append(moments_[m], whole, triangle, {n, n, n}, [&n](const Vec3&) { return n; });
     }
   }
 
@@ -150,6 +157,7 @@ Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {
 Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
                    ObjectSettings::Horizon horizon) {
   SheetMaker maker(bases, horizon);
+  maker.reserve(surface.triangles.size());
   for (const SurfaceTriangle& triangle : surface.triangles) maker.add(triangle);
   return maker.finish();
 }

@@ -6,7 +6,7 @@
 // (smooth normals far off their face), Cycles would flip the receiver. There the identity
 //     max(0, D.b) = max(0, -D.b) + D.b,   so   E(b) = E(-b) + v.b,   v = integral of L D over the hemisphere
 // holds, and -b is legal; v comes from five more normals. A triangle that b's horizon crosses is cut there
-// (Horizon::identity: exact, up to six more bakes of such faces). Horizon::clamp bends such normals to 89
+// (Horizon::identity: exact, up to six more bakes of such faces). Horizon::clamp bends such normals to 89.95
 // degrees off the face instead: cheap, and wrong there.
 #pragma once
 
