@@ -56,8 +56,8 @@ def report(data):
     known = constants()
     lines = []
     for name, key, constant in (("pixel of an atlas", "pixels", "bytes_per_pixel"),
-                                ("triangle of the scene", "scene", "bytes_per_triangle"),
-                                ("triangle of a receiver", "receivers", "bytes_per_triangle")):
+                                ("triangle of the scene", "scene", "bytes_per_scene_triangle"),
+                                ("triangle of a receiver", "receivers", "bytes_per_receiver_triangle")):
         rows = data[key]
         sizes = ", ".join(f"{row['count'] / 1e6:.2f} M: {mebibytes(row['peak_bytes'])}" for row in rows)
         lines.append([name, sizes, f"{slope(rows, 'peak_bytes'):.0f}", f"{slope(rows, 'driver'):.0f}",

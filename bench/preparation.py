@@ -9,6 +9,7 @@ from tables import seconds, table
 
 TITLE = "Preparing receivers"
 PLANNING = Path(os.environ.get("BENCH_PLANNING", RNMBAKE.parent / "bench_planning"))
+CHANGES = ROOT / "bench/results/planning_changes.json"
 NOT_A_BAKE = "uv report (inspect only)"
 
 
@@ -70,7 +71,25 @@ def report(data):
         f"{arrays['triangles']}, because triangles whose basis normals lie under their face are cut and get moment "
         "sheets (`--horizon identity`), which the lists leave out. Lists: `bench/in_blender/receiver_lists.py`, the "
         "obvious script, nothing made slower on purpose.",
-        "### The C++ part", cpp_table(cpp, planned["triangles"])])
+        "### The C++ part", cpp_table(cpp, planned["triangles"]), *changes_table()])
+
+
+def changes_table():
+    """Before and after of changes to the C++ part, from bench/compare_planning.py."""
+    if not CHANGES.exists():
+        return []
+    lines = []
+    for change in json.loads(CHANGES.read_text(encoding="utf-8")):
+        before, after = change["before"], change["after"]
+        for name, old, new, unit in (
+                ("CPU", before["cpu"], after["cpu"], "s"),
+                ("sheets", 1000 * before["steps"]["sheets"], 1000 * after["steps"]["sheets"], "ms"),
+                ("write arrays", 1000 * before["steps"]["write arrays"], 1000 * after["steps"]["write arrays"], "ms"),
+                ("peak", before["peak"] / 2**20, after["peak"] / 2**20, "MiB")):
+            lines.append([change["what"], name, f"{old:.3g} {unit}", f"{new:.3g} {unit}",
+                          "the same" if change["same_arrays"] else "differ"])
+    return [table(["change", "of", "before", "after", "arrays"], lines)
+            + "\n\n`bench/compare_planning.py`: two builds of `bench_planning` taking turns."]
 
 
 def cpp_table(steps, triangles):

@@ -92,7 +92,8 @@ std::vector<Dispatch> split(const Dispatch& dispatch, const Plan& plan) {
 
 std::int64_t atlas_pixels(std::int64_t atlas_limit, std::int64_t memory, std::int64_t scene_triangles,
                           std::int64_t receiver_triangles) {
-  const std::int64_t left = memory - (scene_triangles + receiver_triangles) * bytes_per_triangle;
+  const std::int64_t left =
+      memory - scene_triangles * bytes_per_scene_triangle - receiver_triangles * bytes_per_receiver_triangle;
   const std::int64_t most = std::max<std::int64_t>(atlas_limit, 1);
   return std::clamp(left / bytes_per_pixel, std::min<std::int64_t>(most, 1 << 20), most);
 }

@@ -67,10 +67,11 @@ void group_units(Plan& plan, BakingSettings::Dispatch mode);
 /// The two halves of a dispatch that failed; at a boundary between targets where there is one.
 [[nodiscard]] std::vector<Dispatch> split(const Dispatch& dispatch, const Plan& plan);
 
-/// Bytes that Blender needs for one pixel of an atlas and one triangle of a scene or receiver (measured,
-/// docs/performance.md).
-inline constexpr std::int64_t bytes_per_pixel = 160;
-inline constexpr std::int64_t bytes_per_triangle = 700;
+/// Bytes that Blender's peak grows by with one pixel of an atlas, one triangle of the scene and one triangle
+/// of a receiver, whose corners share nothing (measured, docs/performance.md; rounded up).
+inline constexpr std::int64_t bytes_per_pixel = 240;
+inline constexpr std::int64_t bytes_per_scene_triangle = 500;
+inline constexpr std::int64_t bytes_per_receiver_triangle = 1600;
 
 /// The largest atlas (pixels) that a memory limit (bytes) allows beside the scene itself; at least one
 /// megapixel.

@@ -51,26 +51,45 @@ std::string pixels_name(std::size_t picture) {
   return "pixels" + std::to_string(picture) + ".f32";
 }
 
-/// Corner arrays of several tiles as one mesh over one atlas.
-struct JoinedCorners {
-  std::vector<Vec3> positions, normals;
-  std::vector<Vec2> uvs;
+/// Corner arrays of several tiles as one mesh over one atlas: all positions, then all normals, then all UVs.
+/// Goes through the tiles once for each, so that no second copy of them is held.
+class JoinedCorners {
+ public:
+  void add(const Tile& tile, const Target& target, const Placement& place) {
+    parts_.push_back({&tile.sheet.corners,
+                      Vec2(static_cast<float>(target.width), static_cast<float>(target.height)),
+                      Vec2(static_cast<float>(place.x - tile.x), static_cast<float>(place.y - tile.y))});
+    count_ += tile.sheet.corners.size();
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
 
-  void add(const Tile& tile, const Target& target, const Placement& place, const TileSize& atlas) {
-    const Vec2 size(static_cast<float>(target.width), static_cast<float>(target.height));
-    const Vec2 shift(static_cast<float>(place.x - tile.x), static_cast<float>(place.y - tile.y));
-    for (const ReceiverCorner& corner : tile.sheet.corners) {
-      positions.push_back(corner.position);
-      normals.push_back(corner.normal);
-      uvs.push_back((corner.uv * size + shift) /
-                    Vec2(static_cast<float>(atlas.width), static_cast<float>(atlas.height)));
+  void write(ArrayFile& out, const TileSize& atlas) const {
+    const Vec2 whole(static_cast<float>(atlas.width), static_cast<float>(atlas.height));
+    write_each<Vec3>(out, [](const Part&, const ReceiverCorner& corner) { return corner.position; });
+    write_each<Vec3>(out, [](const Part&, const ReceiverCorner& corner) { return corner.normal; });
+    write_each<Vec2>(out, [&](const Part& part, const ReceiverCorner& corner) {
+      return (corner.uv * part.size + part.shift) / whole;
+    });
+  }
+
+ private:
+  struct Part {
+    const std::vector<ReceiverCorner>* corners;
+    Vec2 size, shift;  // texels of the lightmap; from there to the atlas
+  };
+
+  template <typename T, typename Value>
+  void write_each(ArrayFile& out, Value value) const {
+    std::vector<T> values;
+    for (const Part& part : parts_) {
+      values.clear();
+      for (const ReceiverCorner& corner : *part.corners) values.push_back(value(part, corner));
+      out.write(std::span<const T>(values));
     }
   }
-  void write(ArrayFile& out) const {
-    out.write(std::span<const Vec3>(positions));
-    out.write(std::span<const Vec3>(normals));
-    out.write(std::span<const Vec2>(uvs));
-  }
+
+  std::vector<Part> parts_;
+  std::size_t count_ = 0;
 };
 
 std::vector<std::size_t> tiles_of(const Dispatch& dispatch, const Plan& plan) {
@@ -105,12 +124,12 @@ json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::
     JoinedCorners joined;
     for (const std::size_t i : members) {
       const Tile& tile = context.plan.tiles[layout.tiles[i]];
-      joined.add(tile, context.targets[tile.target], layout.atlas.placements[i], size);
+      joined.add(tile, context.targets[tile.target], layout.atlas.placements[i]);
     }
-    joined.write(out);
+    joined.write(out, size);
     const Tile& first = context.plan.tiles[layout.tiles[members.front()]];
     const std::string& like = context.survey.objects[context.targets[first.target].object].name;
-    groups.push_back({{"corners", joined.positions.size()}, {"like", group.empty() ? "" : like}});
+    groups.push_back({{"corners", joined.count()}, {"like", group.empty() ? "" : like}});
   }
   out.close();
   return {{"width", size.width},          {"height", size.height}, {"arrays", arrays},

@@ -220,7 +220,7 @@ TEST(AtlasPixels, ShrinkWithMemoryAndTriangles) {
   const std::int64_t memory = std::int64_t(2) << 30;
   EXPECT_EQ(atlas_pixels(std::int64_t(1) << 40, memory, 0, 0), memory / bytes_per_pixel);
   EXPECT_EQ(atlas_pixels(std::int64_t(1) << 40, memory, 500000, 500000),
-            (memory - 1000000 * bytes_per_triangle) / bytes_per_pixel);
+            (memory - 500000 * (bytes_per_scene_triangle + bytes_per_receiver_triangle)) / bytes_per_pixel);
 }
 
 TEST(AtlasPixels, NeverFallBelowAMegapixelUnlessAskedFor) {
