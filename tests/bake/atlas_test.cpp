@@ -12,6 +12,7 @@ std::vector<TileSize> random_tiles(unsigned seed, int count, int largest) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> side(1, largest);
   std::vector<TileSize> tiles;
+  tiles.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i) tiles.push_back({side(random), side(random)});
   return tiles;
 }
