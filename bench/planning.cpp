@@ -98,7 +98,7 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
     laps.lap("tangent frames");
     const Surface surface = make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
     laps.lap("surface");
-    Sheets sheets = make_sheets(surface, bases, ObjectSettings::Horizon::identity);
+    Sheets sheets = make_sheets(surface, bases, ObjectSettings::Horizon::identity, Vec2(side));
     laps.lap("sheets");
     add_receiver_units(plan, i, target, std::move(sheets), bases, {});
     laps.lap("crop");

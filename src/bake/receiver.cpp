@@ -18,12 +18,23 @@ const float lowest_sine = std::sin(0.05F * float(pi) / 180.0F);
 using CornerNormals = std::array<Vec3, 3>;
 
 /// Blender's custom normals are unit vectors, so a new corner within a triangle bends the interpolation.
-/// Parts of no more than 10 degrees keep that below a tenth of a degree.
-int parts_for(const CornerNormals& normals) {
+/// Parts of no more than 10 degrees keep that below a tenth of a degree; no part has to be smaller than half
+/// a texel, which averages over it.
+int parts_for(const CornerNormals& normals, int most) {
   const float closest =
       std::min({normals[0].dot(normals[1]), normals[1].dot(normals[2]), normals[2].dot(normals[0])});
   const double degrees = std::acos(std::clamp(double(closest), -1.0, 1.0)) * 180 / pi;
-  return std::clamp(static_cast<int>(std::ceil(degrees / 10)), 1, 16);
+  return std::clamp(static_cast<int>(std::ceil(degrees / 10)), 1, most);
+}
+
+/// Half texels along the longest edge of the triangle, 16 at most.
+int half_texels(const SurfaceTriangle& triangle, const Vec2& map) {
+  float longest2 = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 edge = (triangle.corners[(k + 1) % 3].uv - triangle.corners[k].uv) * map;
+    longest2 = std::max(longest2, edge.length2());
+  }
+  return static_cast<int>(std::clamp(std::ceil(2 * std::sqrt(longest2)), 1.0F, 16.0F));
 }
 
 /// Appends triangles whose positions, UVs and normals interpolate as those of `triangle` do; `finish` makes
@@ -56,8 +67,13 @@ WeightPolygon inside_map(const SurfaceTriangle& triangle) {
 /// Cuts one target into sheets, triangle by triangle.
 class SheetMaker {
  public:
-  SheetMaker(const std::vector<BasisDirection>& bases, Horizon horizon)
-      : bases_(bases), horizon_(horizon), above_(bases.size()), below_(bases.size()), moments_(5) {}
+  SheetMaker(const std::vector<BasisDirection>& bases, Horizon horizon, const Vec2& map)
+      : bases_(bases),
+        horizon_(horizon),
+        map_(map),
+        above_(bases.size()),
+        below_(bases.size()),
+        moments_(5) {}
 
   /// Room for as many triangles as most targets need: those that lie above their face and inside the map.
   void reserve(std::size_t triangles) {
@@ -111,7 +127,7 @@ class SheetMaker {
       for (Vec3& n : up) n = legal(n);
       append(above_[b], whole, triangle, up, [](const Vec3& n) { return n.normalized(); });
     } else {
-      const int parts = parts_for(up);
+      const int parts = parts_for(up, half_texels(triangle, map_));
       append(above_[b], triangulate(clip(polygon, height), parts), triangle, up, legal);
       append(below_[b], triangulate(clip(polygon, depth), parts), triangle, down, legal);
     }
@@ -129,6 +145,7 @@ class SheetMaker {
 
   const std::vector<BasisDirection>& bases_;
   Horizon horizon_;
+  Vec2 map_;
   std::vector<std::vector<ReceiverCorner>> above_, below_, moments_;
   HorizonCounts counts_;
 };
@@ -155,8 +172,8 @@ Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {
 }
 
 Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
-                   ObjectSettings::Horizon horizon) {
-  SheetMaker maker(bases, horizon);
+                   ObjectSettings::Horizon horizon, const Vec2& map) {
+  SheetMaker maker(bases, horizon, map);
   maker.reserve(surface.triangles.size());
   for (const SurfaceTriangle& triangle : surface.triangles) maker.add(triangle);
   return maker.finish();

@@ -60,7 +60,8 @@ struct FaceAxes {
 /// interpolation between corners stays in it.
 [[nodiscard]] Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine);
 
+/// `map`: texels of the lightmap along u and v; cut triangles are divided no finer than they need be for it.
 [[nodiscard]] Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
-                                 ObjectSettings::Horizon horizon);
+                                 ObjectSettings::Horizon horizon, const Vec2& map = Vec2(8192));
 
 }  // namespace rnmbake

@@ -183,7 +183,8 @@ class BakeRun {
     if (receiver) {
       std::vector<BasisDirection> bases = bases_;
       for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
-      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon);
+      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon,
+                                  Vec2(float(target.width), float(target.height)));
       horizons_[i] = sheets.counts;
       keep_surface |= sheets.sheets.size() > bases.size();
       add_receiver_units(plan_, i, target, std::move(sheets), bases_, cycles);
@@ -205,7 +206,7 @@ class BakeRun {
     if (failed > 0) {
       // A warning: each of them had its error already.
       log::warn("{} of {} objects failed; the others are in {}", failed, total,
-                 settings_.output.dir.string());
+                settings_.output.dir.string());
       return static_cast<int>(ExitCode::tasks_failed);
     }
     log::info("{} lightmap{} in {}, {:.1f} s", total, total == 1 ? "" : "s", settings_.output.dir.string(),

@@ -186,6 +186,18 @@ TEST(Sheets, ClampNeedsNothingElse) {
   for (const Sheet& sheet : sheets.sheets) EXPECT_EQ(sheet.corners.size(), 36U);
 }
 
+TEST(Sheets, AreNotDividedFinerThanTheMapShows) {
+  const auto corners = [](const Vec2& map) {
+    std::size_t total = 0;
+    for (const Sheet& sheet : make_sheets(smooth_cube(), flat_and_rnm(), Horizon::identity, map).sheets)
+      if (sheet.role != Role::moment) total += sheet.corners.size();
+    return total;
+  };
+  const std::size_t fine = corners(Vec2(4096)), coarse = corners(Vec2(0.25F));
+  EXPECT_LT(coarse, fine / 4);
+  EXPECT_GE(coarse, 4U * 36);  // what is cut still has all its parts
+}
+
 TEST(Sheets, CutAtTheHorizonCoverTheTriangleOnce) {
   std::mt19937 random(5);
   std::normal_distribution<float> normal;
