@@ -35,7 +35,7 @@ class TargetMaker {
   TargetList make() {
     check_patterns();
     for (std::size_t i = 0; i < survey_.objects.size(); ++i) consider(i);
-    if (first_error_) throw Error(*first_error_);
+    if (last_error_) throw Error(*last_error_);
     if (candidates_.empty()) {
       fail(ExitCode::invalid_input, "nothing to bake in {}: none of its {} objects is selected and has faces",
            survey_.scene_file, survey_.objects.size());
@@ -72,8 +72,8 @@ class TargetMaker {
       if (candidate.lightmap) candidate.uv = layer_uvs(mesh, *candidate.lightmap);
       candidates_.push_back(std::move(candidate));
     } catch (const Error& error) {
-      if (first_error_) log::error("{}", first_error_->what());
-      first_error_ = error;
+      if (last_error_) log::error("{}", last_error_->what());
+      last_error_ = error;
     }
   }
 
@@ -131,7 +131,7 @@ class TargetMaker {
   Workspace& workspace_;
   const Survey& survey_;
   std::vector<Candidate> candidates_;
-  std::optional<Error> first_error_;
+  std::optional<Error> last_error_;
   TargetList list_;
 };
 
