@@ -1,11 +1,11 @@
 #include "process/tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -25,7 +25,9 @@ struct ProcessLine {
 /// /proc/PID/stat, see proc(5). The name (field 2) may hold spaces and brackets, so count from the last ")".
 bool read_stat(const std::filesystem::path& folder, ProcessLine& line) {
   std::ifstream stream(folder / "stat");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::array<char, 4096> buffer{};
+  stream.read(buffer.data(), buffer.size());  // sets badbit where the process is gone; iterators would throw
+  const std::string text(buffer.data(), static_cast<std::size_t>(stream.gcount()));
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return false;
   std::istringstream fields(text.substr(name_end + 1));
