@@ -1,5 +1,6 @@
 """Blenders that are missing, too old, hang, crash or are killed; and users who press Ctrl-C."""
 import os
+from pathlib import Path
 import signal
 import time
 import unittest
@@ -169,7 +170,7 @@ def any_bakes(pid):
     """Whether a Blender below `pid` runs bake_entry.py."""
     for child in children_of(pid):
         try:
-            if b"bake_entry.py" in open(f"/proc/{child}/cmdline", "rb").read():
+            if b"bake_entry.py" in Path(f"/proc/{child}/cmdline").read_bytes():
                 return True
         except OSError:
             pass
