@@ -119,6 +119,53 @@ class HorizonIdentity {
   std::array<std::optional<Window>, 5> moments_;
 };
 
+/// A texel whose centre lies on a cut may slip between the two parts: it takes the mean of the neighbours on
+/// its side of the edge (faces that look the same way), or of all if there are none.
+class CutFiller {
+ public:
+  CutFiller(const TexelGeometry& geometry, const FloatImage& coverage, const std::optional<Window>& above,
+            const Window& below)
+      : geometry_(geometry), coverage_(coverage), above_(above), below_(below) {}
+
+  void fill(FloatImage& radiance) const {
+    for (int y = 0; y < radiance.height(); ++y) {
+      for (int x = 0; x < radiance.width(); ++x) {
+        if (coverage_.texel(x, y)[0] > 0 && !baked(x, y)) store(radiance, x, y, around(x, y, radiance));
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool baked(int x, int y) const {
+    return (above_ && above_->at(x, y)) || below_.at(x, y).has_value();
+  }
+
+  [[nodiscard]] Vec3 around(int x0, int y0, const FloatImage& radiance) const {
+    const SurfaceTriangle* face = geometry_.triangle(x0, y0);
+    Vec3 same(0), any(0);
+    float same_count = 0, any_count = 0;
+    for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, radiance.height() - 1); ++y) {
+      for (int x = std::max(x0 - 1, 0); x <= std::min(x0 + 1, radiance.width() - 1); ++x) {
+        if (!baked(x, y)) continue;
+        const auto texel = radiance.texel(x, y);
+        const Vec3 color(texel[0], texel[1], texel[2]);
+        const SurfaceTriangle* other = geometry_.triangle(x, y);
+        any += color;
+        ++any_count;
+        if (face == nullptr || other == nullptr || face->normal.dot(other->normal) < 0.9999F) continue;
+        same += color;
+        ++same_count;
+      }
+    }
+    return same_count > 0 ? same / same_count : any_count > 0 ? any / any_count : Vec3(0);
+  }
+
+  const TexelGeometry& geometry_;
+  const FloatImage& coverage_;
+  const std::optional<Window>& above_;
+  const Window& below_;
+};
+
 void fill_frames(const TexelGeometry& geometry, TargetBakes& bakes) {
   const int width = bakes.coverage.width(), height = bakes.coverage.height();
   bakes.tangent = FloatImage(width, height, 4);
@@ -178,8 +225,10 @@ TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles
   if (geometry) {
     const HorizonIdentity identity(*geometry, moments);
     for (std::size_t b = 0; b < bases.size(); ++b) {
-      if (below[b])
-        identity.apply(*below[b], above[b], in_frame(bases[b].direction, target), result.bases[b].radiance);
+      if (!below[b]) continue;
+      FloatImage& radiance = result.bases[b].radiance;
+      identity.apply(*below[b], above[b], in_frame(bases[b].direction, target), radiance);
+      CutFiller(*geometry, result.coverage, above[b], *below[b]).fill(radiance);
     }
   }
   if (geometry && frames) fill_frames(*geometry, result);
