@@ -39,6 +39,12 @@ def build_mesh(name, stream, corners):
 
 
 def _set_normals(mesh, normals):
+    """Before 4.5 Blender keeps them as angles of 16 bits, and turns one whose azimuth lies within 0.81 degrees of the
+    corner's outgoing edge into that edge's; from then on it can take them as they are."""
+    if bpy.app.version >= (4, 5):
+        mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals)
+        mesh.update()
+        return
     if hasattr(mesh, "use_auto_smooth"):  # <= 4.0: custom normals count only with it
         mesh.use_auto_smooth = True
     xyz = iter(normals)
