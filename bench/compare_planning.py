@@ -15,7 +15,7 @@ TURNS = 4
 
 
 def plan(binary, survey, folder):
-    """(answer, peak bytes) of one turn."""
+    """(answer, peak bytes, processor seconds) of one turn."""
     with subprocess.Popen([binary, survey, folder, "3"], stdout=subprocess.PIPE, text=True) as process:
         answer = json.loads(process.stdout.read())
         _, status, usage = os.wait4(process.pid, 0)
@@ -27,7 +27,7 @@ def plan(binary, survey, folder):
 
 def fastest(turns):
     steps = {step: min(answer["steps"][step] for answer, _, _ in turns) for step in turns[0][0]["steps"]}
-    return {"steps": steps, "peak": max(peak for _, peak, _ in turns), "cpu": min(cpu for _, _, cpu in turns) / 3}
+    return {"steps": steps, "triangles": turns[0][0]["triangles"], "peak": max(peak for _, peak, _ in turns), "cpu": min(cpu for _, _, cpu in turns) / 3}
 
 
 def main(old, new, survey, what):

@@ -85,11 +85,15 @@ def changes_table():
                 ("CPU", before["cpu"], after["cpu"], "s"),
                 ("sheets", 1000 * before["steps"]["sheets"], 1000 * after["steps"]["sheets"], "ms"),
                 ("write arrays", 1000 * before["steps"]["write arrays"], 1000 * after["steps"]["write arrays"], "ms"),
+                ("receiver triangles", before["triangles"], after["triangles"], ""),
                 ("peak", before["peak"] / 2**20, after["peak"] / 2**20, "MiB")):
-            lines.append([change["what"], name, f"{old:.3g} {unit}", f"{new:.3g} {unit}",
-                          "the same" if change["same_arrays"] else "differ"])
-    return [table(["change", "of", "before", "after", "arrays"], lines)
+            lines.append([change["what"], name, measure_of(old, unit), measure_of(new, unit)])
+    return [table(["change", "of", "before", "after"], lines)
             + "\n\n`bench/compare_planning.py`: two builds of `bench_planning` taking turns."]
+
+
+def measure_of(value, unit):
+    return f"{value:.0f} {unit}".strip() if value >= 100 else f"{value:.2f} {unit}"
 
 
 def cpp_table(steps, triangles):

@@ -68,12 +68,17 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   return argv;
 }
 
-std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(const fs::path& folder) {
+std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
+    const fs::path& folder, const fs::path& bytecode) {
   const fs::path root = fs::absolute(folder);
   std::vector<std::pair<std::string, std::optional<std::string>>> changes = {
-      {"HOME", (root / "home").string()},
-      {"TMPDIR", (root / "tmp").string()},
-      {"PYTHONDONTWRITEBYTECODE", "1"}};
+      {"HOME", (root / "home").string()}, {"TMPDIR", (root / "tmp").string()}};
+  if (bytecode.empty()) {
+    changes.emplace_back("PYTHONDONTWRITEBYTECODE", "1");
+  } else {
+    changes.emplace_back("PYTHONDONTWRITEBYTECODE", std::nullopt);
+    changes.emplace_back("PYTHONPYCACHEPREFIX", fs::absolute(bytecode).string());
+  }
   for (const char* name : {"TEMP", "TMP", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME",
                            "XDG_STATE_HOME", "BLENDER_USER_RESOURCES", "BLENDER_USER_CONFIG",
                            "BLENDER_USER_SCRIPTS", "BLENDER_USER_EXTENSIONS", "BLENDER_USER_DATAFILES",
@@ -91,7 +96,7 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
   prepare(launch, nonce);
   ProcessOptions options;
   options.argv = launch_argv(info, scripts, trust, launch);
-  options.environment = private_environment(launch.folder);
+  options.environment = private_environment(launch.folder, scripts.bytecode());
   options.output = launch.folder / "stdout.log";
   options.total_seconds = limits.total_seconds;
   options.silence_seconds = limits.silence_seconds;

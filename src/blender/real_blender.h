@@ -20,9 +20,10 @@ struct LaunchTrust {
 std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder& scripts,
                                      const LaunchTrust& trust, const Launch& launch);
 
-/// HOME and TMPDIR inside `folder`, and nothing from outside that could change what Blender does.
+/// HOME and TMPDIR inside `folder`, and nothing from outside that could change what Blender does. `bytecode`:
+/// see ScriptFolder; empty: Python keeps nothing.
 std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
-    const std::filesystem::path& folder);
+    const std::filesystem::path& folder, const std::filesystem::path& bytecode = {});
 
 /// One launch to its end. An answer counts only if result.json holds this launch's nonce and Blender returned
 /// 0.

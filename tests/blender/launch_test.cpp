@@ -252,5 +252,19 @@ TEST(ProgressTail, WaitsForWholeLinesAndSkipsNonsense) {
   EXPECT_EQ(seen, (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(PrivateEnvironment, KeepsBytecodeOnlyWhereAskedTo) {
+  const auto value = [](const auto& changes, const std::string& name) -> std::optional<std::string> {
+    for (const auto& [key, text] : changes)
+      if (key == name) return text.value_or("unset");
+    return std::nullopt;
+  };
+  const auto without = private_environment("/t/launch");
+  EXPECT_EQ(value(without, "PYTHONDONTWRITEBYTECODE"), "1");
+  EXPECT_EQ(value(without, "PYTHONPYCACHEPREFIX"), std::nullopt);
+  const auto with = private_environment("/t/launch", "/t/bytecode");
+  EXPECT_EQ(value(with, "PYTHONDONTWRITEBYTECODE"), "unset");
+  EXPECT_EQ(value(with, "PYTHONPYCACHEPREFIX"), "/t/bytecode");
+}
+
 }  // namespace
 }  // namespace rnmbake
