@@ -38,6 +38,8 @@ def _remove_bias(scene):
     cycles.use_denoising = False  # 3.4 without OIDN bakes black with it on, and says FINISHED
     cycles.light_sampling_threshold = 0
     cycles.film_exposure = 1  # multiplies bakes
+    if bpy.app.version < (3, 5):
+        cycles.sampling_pattern = "SOBOL"  # the default's samples repeat from texel to texel: a whole map errs one way
     for switch in ("use_fast_gi", "use_guiding"):
         _set(cycles, switch, False)
     scene.render.use_simplify = False
