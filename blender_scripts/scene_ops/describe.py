@@ -140,14 +140,6 @@ def is_plain_light_tree(tree):
             and constant(emission, "Color") == (1.0, 1.0, 1.0))
 
 
-def light_group(ob):
-    """The light-linking collections that tell an object's receivers apart from others'; "" without any."""
-    linking = getattr(ob, "light_linking", None)  # >= 4.0
-    collections = [] if linking is None else [("receiver", linking.receiver_collection),
-                                              ("blocker", linking.blocker_collection)]
-    return ";".join(f"{role}={collection.name_full}" for role, collection in collections if collection)
-
-
 def describe_world(world):
     """World of scene/survey.h: its kind, strength and colour."""
     if world is None:

@@ -2,8 +2,11 @@
 import bpy
 
 from core.task import Refusal
+from scene_ops import light_linking
 from scene_ops.keys import Keys, instancer_of, shown_surfaces
 from scene_ops.survey import with_render_depsgraph
+
+PIVOT = "rnmbake pivot"
 
 
 def targets_as_objects(targets):
@@ -74,15 +77,17 @@ def _copy(instance):
     ob = instance.object
     mesh = bpy.data.meshes.new_from_object(ob)  # as evaluated: the render depsgraph keeps all UV layers
     materials = [slot.material.original if slot.material else None for slot in ob.material_slots]
-    return {"mesh": mesh, "matrix": instance.matrix_world.copy(), "materials": materials,
-            "visible": {name: getattr(ob, name) for name in dir(ob) if name.startswith("visible_")
-                        and isinstance(getattr(ob, name), bool)}}
+    visible = {name: getattr(ob, name) for name in dir(ob)
+               if name.startswith("visible_") and isinstance(getattr(ob, name), bool)}
+    return {"original": ob.original, "mesh": mesh, "matrix": instance.matrix_world.copy(), "materials": materials,
+            "visible": visible}
 
 
-def _make_object(key, mesh, matrix, materials, visible):
+def _make_object(key, original, mesh, matrix, materials, visible):
     ob = bpy.data.objects.new(key[:60], mesh)
     bpy.context.scene.collection.objects.link(ob)
-    ob.matrix_world = matrix
+    place(ob, matrix)
+    light_linking.follow(ob, original)
     while len(mesh.materials) < len(materials):
         mesh.materials.append(None)
     for slot, material in zip(ob.material_slots, materials):
@@ -91,3 +96,20 @@ def _make_object(key, mesh, matrix, materials, visible):
     for name, value in visible.items():
         setattr(ob, name, value)
     return ob
+
+
+def place(ob, matrix):
+    """By location, rotation and scale; a matrix with shear needs a parent, whose inverse may be any matrix."""
+    ob.matrix_basis = matrix
+    error = max(abs(a - b) for row, wanted in zip(ob.matrix_basis, matrix) for a, b in zip(row, wanted))
+    if error <= 1e-6 * max(1, max(abs(value) for row in matrix for value in row)):
+        return
+    ob.matrix_basis.identity()
+    ob.parent = bpy.data.objects.get(PIVOT) or _make_pivot()
+    ob.matrix_parent_inverse = matrix
+
+
+def _make_pivot():
+    pivot = bpy.data.objects.new(PIVOT, None)
+    bpy.context.scene.collection.objects.link(pivot)
+    return pivot

@@ -7,6 +7,8 @@ from array import array
 
 import bpy
 
+from scene_ops import light_linking
+
 
 def read_floats(stream, count):
     values = array("f")
@@ -72,7 +74,7 @@ def make_material(image):
 def make_receiver(scene, mesh, material, like=""):
     """Link an object that the camera (and so the bake) sees and no other ray does.
 
-    `like`: the name of the object whose light linking it takes over.
+    `like`: the name of the object that it stands for where lights choose what they light.
     """
     receiver = bpy.data.objects.new(mesh.name, mesh)
     scene.collection.objects.link(receiver)
@@ -81,10 +83,8 @@ def make_receiver(scene, mesh, material, like=""):
     for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
         setattr(receiver, "visible_" + ray, False)
     _no_terminator_offset(receiver)
-    original = bpy.data.objects.get(like) if like else None
-    if original is not None and hasattr(original, "light_linking"):
-        for which in ("receiver_collection", "blocker_collection"):
-            setattr(receiver.light_linking, which, getattr(original.light_linking, which))
+    if like:
+        light_linking.follow(receiver, bpy.data.objects[like])
     return receiver
 
 

@@ -11,8 +11,9 @@ import sys
 import bpy
 
 from core.task import Refusal
-from scene_ops.describe import describe_light, describe_material, describe_world, light_group
+from scene_ops.describe import describe_light, describe_material, describe_world
 from scene_ops.keys import LABEL_PROPERTY, NAME_PROPERTY, Keys, instancer_of, shown_surfaces
+from scene_ops.light_linking import light_group
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
