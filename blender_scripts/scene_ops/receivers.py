@@ -76,16 +76,22 @@ def make_receiver(scene, mesh, material, like=""):
 
     `like`: the name of the object that it stands for where lights choose what they light.
     """
-    receiver = bpy.data.objects.new(mesh.name, mesh)
-    scene.collection.objects.link(receiver)
+    receiver = _camera_only(scene, mesh)
+    _camera_only(scene, mesh)  # a mesh with two users keeps a BVH of its own, which other rays pass by as a whole
     mesh.materials.append(material)
-    receiver.visible_camera = True  # all off: silently not exported
-    for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
-        setattr(receiver, "visible_" + ray, False)
     _no_terminator_offset(receiver)
     if like:
         light_linking.follow(receiver, bpy.data.objects[like])
     return receiver
+
+
+def _camera_only(scene, mesh):
+    ob = bpy.data.objects.new(mesh.name, mesh)
+    scene.collection.objects.link(ob)
+    ob.visible_camera = True  # all off: silently not exported
+    for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
+        setattr(ob, "visible_" + ray, False)
+    return ob
 
 
 def _no_terminator_offset(ob):
