@@ -13,6 +13,9 @@ namespace rnmbake {
 namespace {
 
 constexpr double sun_allowance = 5e-4;  // of the sun's irradiance, for every texel
+// Below the horizon faces are cut into pieces of a few texels, and samples beyond a piece's edge fold back
+// into it: an error of the mean that falls with the texel's size.
+constexpr double horizon_allowance = 1e-3;
 // Noise must not widen an allowance to more than this share of the right answer.
 constexpr double widest_allowance = 0.005;
 
@@ -58,12 +61,12 @@ INSTANTIATE_TEST_SUITE_P(ClosedForms, UniformLight, testing::ValuesIn(uniform_ca
 class Horizon : public testing::TestWithParam<HorizonCase> {};
 
 void expect_right(const ErrorSummary& errors, bool sun, const char* where) {
-  const double share = sun ? sun_allowance : 0.002 * errors.truth;
+  const double share = sun ? horizon_allowance : 0.002 * errors.truth;
   EXPECT_GT(errors.texels, 250U) << where;
   EXPECT_LE(std::abs(errors.mean), std::max(share, 3 * errors.standard_error))
       << where << ": standard error " << errors.standard_error;
   if (sun) {  // a sky's is noise
-    EXPECT_LE(errors.rms, 0.003) << where;
+    EXPECT_LE(errors.rms, 0.005) << where;
   }
 }
 

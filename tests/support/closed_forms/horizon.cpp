@@ -130,7 +130,7 @@ std::vector<HorizonCase> horizon_cases() {
 }
 
 Words horizon_flags() {
-  return {"--resolution", "64", "--samples", "256", "--bounces", "0"};
+  return {"--resolution", "64", "--samples", "100", "--bounces", "0"};
 }
 
 HorizonOutcome compare_horizon(const HorizonCase& horizon, const Survey& survey, const LayeredImage& lightmap,
