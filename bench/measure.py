@@ -28,15 +28,19 @@ def machine():
     return f"{os.cpu_count()} cores, {os.uname().machine.replace('_', '-')}, {name}, {version}"
 
 
+def machine_ticks():
+    """(busy, all) processor seconds of the whole machine since it started."""
+    fields = [int(n) for n in open("/proc/stat", encoding="ascii").readline().split()[1:9]]
+    rate = os.sysconf("SC_CLK_TCK")
+    return (sum(fields) - fields[3] - fields[4]) / rate, sum(fields) / rate  # but idle, iowait
+
+
 def busy_cores(seconds=1.0):
     """Cores that are busy now, over `seconds`, with anything."""
-    def ticks():
-        fields = [int(n) for n in open("/proc/stat", encoding="ascii").readline().split()[1:9]]
-        return sum(fields), fields[3] + fields[4]  # idle, iowait
-    total, idle = ticks()
+    busy, total = machine_ticks()
     time.sleep(seconds)
-    total2, idle2 = ticks()
-    return os.cpu_count() * (1 - (idle2 - idle) / max(1, total2 - total))
+    busy2, total2 = machine_ticks()
+    return os.cpu_count() * (busy2 - busy) / max(1e-3, total2 - total)
 
 
 def await_quiet(patience):
@@ -63,15 +67,14 @@ class Peak(threading.Thread):
 
 def run(argv, environment=None):
     """Runs to the end; stops the benchmark with the program's own words if it fails."""
-    other, start = busy_cores(), time.monotonic()
-    ticks_before = os.times()
+    start, busy, ticks_before = time.monotonic(), machine_ticks()[0], os.times()
     with tempfile.TemporaryFile("w+") as output:
         process = subprocess.Popen([str(a) for a in argv], stdout=output, stderr=subprocess.STDOUT, cwd=ROOT,
                                    env={**os.environ, **(environment or {})})
         peak = Peak(process.pid)
         peak.start()
         code = process.wait()
-        wall = time.monotonic() - start
+        wall, busy = time.monotonic() - start, machine_ticks()[0] - busy
         peak.over.set()
         peak.join()
         output.seek(0)
@@ -80,7 +83,7 @@ def run(argv, environment=None):
         raise SystemExit(f"bench: {' '.join(map(str, argv))} ended with {code}:\n{text[-2000:]}")
     ticks = os.times()
     cpu = ticks.children_user + ticks.children_system - ticks_before.children_user - ticks_before.children_system
-    return {"wall": wall, "cpu": cpu, "peak": peak.kibibytes * 1024, "busy_before": other, "output": text}
+    return {"wall": wall, "cpu": cpu, "peak": peak.kibibytes * 1024, "others": max(0.0, busy - cpu) / wall, "output": text}
 
 
 def bake(scene, *flags, environment=None):

@@ -26,9 +26,9 @@ def report(data):
                       seconds(row["bake_seconds"]), seconds(row["prepare_seconds"]), seconds(startup),
                       seconds(row["wall"] - row["launch_seconds"]),
                       f"{100 * (row['wall'] / row['bake_seconds'] - 1):.1f} %",
-                      mebibytes(row["peak_bytes"]), mebibytes(row["peak"]), f"{row['busy_before']:.1f}"])
+                      mebibytes(row["peak_bytes"]), mebibytes(row["peak"]), f"{row['others']:.1f}"])
     head = ["scene", "objects", "samples", "wall s", "in Cycles s", "build receivers s", "start, load, save s",
-            "survey, plan, merge s", "overhead", "peak MiB Blender", "peak MiB rnmbake", "cores busy before"]
+            "survey, plan, merge s", "overhead", "peak MiB Blender", "peak MiB rnmbake", "cores others used"]
     return table(head, lines) + (
         "\n\nflat and three bases, 64 x 64 texels for each object, 8 bounces, one launch. \"In Cycles\" is the time "
         "within Blender's bake operator: scene synchronisation, BVH and rays. The goal is 10 % at 256 samples.")

@@ -23,9 +23,9 @@ INTRODUCTION = """# Performance
 Written by `./dev bench`, which measures everything below; do not edit. A single section: the command under its
 title. The figures are kept in `bench/results/`, and `./dev bench report` writes this page from them.
 
-"Wall" is a clock on the wall, "CPU" the processor time of rnmbake and every Blender it started. "Cores busy before"
-is what other work kept busy in the second before: well above 0 means that wall clocks are too long and the CPU
-column is the one to read.
+"Wall" is a clock on the wall, "CPU" the processor time of rnmbake and every Blender it started. "Cores others used"
+is what other work on the machine took meanwhile: well above 0 means that wall clocks are too long and the CPU column
+is the one to read.
 """
 
 
