@@ -81,8 +81,8 @@ class TexelGeometry {
 /// E(b) of texels whose basis normal lies under their face: E(-b) + v.b, as bake/receiver.h explains.
 class HorizonIdentity {
  public:
-  HorizonIdentity(const TexelGeometry& geometry, std::array<std::optional<Window>, 5> moments)
-      : geometry_(geometry), moments_(std::move(moments)) {}
+  HorizonIdentity(const TexelGeometry& geometry, const std::array<std::optional<Window>, 5>& moments)
+      : geometry_(geometry), moments_(moments) {}
 
   /// Fills in the texels of `below`. `above`: what the legal part of the same basis covers.
   void apply(const Window& below, const std::optional<Window>& above, const Vec3& basis,

@@ -26,7 +26,7 @@ WeightPolygon clip(const WeightPolygon& polygon, const std::array<float, 3>& cor
 std::vector<Weights> triangulate(const WeightPolygon& polygon, int parts) {
   std::vector<Weights> triangles;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const Weights origin = polygon[0];
+    const Weights& origin = polygon[0];
     const Weights step1 = (polygon[i - 1] - origin) / static_cast<float>(parts);
     const Weights step2 = (polygon[i] - origin) / static_cast<float>(parts);
     const auto at = [&](int a, int b) {

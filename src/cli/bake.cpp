@@ -25,8 +25,6 @@
 namespace rnmbake {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The directions to bake for, from --bases and --basis.
 std::vector<BasisDirection> choose_bases(const BakingSettings& settings) {
   BasisSet set = rnm_set();

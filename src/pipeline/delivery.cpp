@@ -78,7 +78,7 @@ bool DeliveryDesk::is_settled(std::size_t target) const {
   return deliveries_[target].has_value();
 }
 
-Delivery DeliveryDesk::finish(std::size_t target_index, Shelf shelf) const {
+Delivery DeliveryDesk::finish(std::size_t target_index, Shelf&& shelf) const {
   const Target& target = context_.targets[target_index];
   const DeliveryNote& note = notes_[target_index];
   std::vector<const Tile*> tiles;

@@ -57,7 +57,7 @@ class DeliveryDesk {
     std::size_t missing = 0;                     // units
     std::map<std::size_t, FloatImage> pictures;  // by tile
   };
-  [[nodiscard]] Delivery finish(std::size_t target, Shelf shelf) const;
+  [[nodiscard]] Delivery finish(std::size_t target, Shelf&& shelf) const;
   [[nodiscard]] std::vector<std::string> write(const std::string& stem, LayeredImage image) const;
 
   BakeContext context_;

@@ -61,6 +61,7 @@ class Dispatcher {
   BakeTimings run() {
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::thread> workers;
+    workers.reserve(static_cast<std::size_t>(jobs_));
     for (int job = 0; job < jobs_; ++job) workers.emplace_back([this] { work(); });
     watch();
     for (std::thread& worker : workers) worker.join();

@@ -13,7 +13,7 @@ namespace rnmbake {
 namespace {
 
 constexpr const char* unwrapped_layer = "Lightmap";
-constexpr double packing_guess = 0.6;  // share of the square that charts usually fill
+constexpr double packing_guess = 0.6;       // share of the square that charts usually fill
 constexpr double widest_margin = 1.0 / 16;  // of the square; more would leave small maps no room for charts
 
 Uvs layer_uvs(const Mesh& mesh, int layer) {

@@ -51,7 +51,7 @@ std::string save_scene_with_uvs(Workspace& workspace, const Survey& survey, cons
         "{}: a plain mesh in the saved scene, since its UVs belong to what its modifiers or instancer make",
         key.get<std::string>());
   }
-  const std::string name = workspace.settings().scene.file.stem().string() + ".lightmap-uvs.blend";
+  std::string name = workspace.settings().scene.file.stem().string() + ".lightmap-uvs.blend";
   write_atomically(output.dir / name, [&](const fs::path& temporary) {
     fs::copy_file(folder / answer.at("blend").get<std::string>(), temporary,
                   fs::copy_options::overwrite_existing);

@@ -90,8 +90,10 @@ std::vector<Uvs> unwrap(Workspace& workspace, const Survey& survey,
   const auto answer = workspace.run(std::move(launch));
   std::ifstream in(folder / answer.at("file").get<std::string>(), std::ios::binary);
   std::vector<Uvs> unwrapped;
+  unwrapped.reserve(loops.size());
   for (const std::size_t count : loops) unwrapped.push_back(read_uvs(in, count));
   std::vector<Uvs> result;
+  result.reserve(which.size());
   for (const std::size_t index : which) result.push_back(unwrapped[index]);
   return result;
 }

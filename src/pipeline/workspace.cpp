@@ -16,7 +16,7 @@ Workspace::Workspace(const ResolvedConfig& config, Blender& blender) : config_(c
 }
 
 std::filesystem::path Workspace::new_folder(const std::string& purpose) {
-  const auto folder = folder_.path() / fmt::format("{:03}-{}", launches_++, purpose);
+  auto folder = folder_.path() / fmt::format("{:03}-{}", launches_++, purpose);
   make_folders(folder);
   return folder;
 }
