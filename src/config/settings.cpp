@@ -170,7 +170,8 @@ std::vector<Setting> make_table() {
       bake("uv", &Object::uv, "UV layer of the lightmap")
           .empty_means("a layer named Lightmap, UV2 or lightmap, else the second one, else unwrapped"),
       bake("unwrap", &Object::unwrap, "make lightmap UVs: when there are none, never, or always"),
-      bake("unwrap_margin", &Object::unwrap_margin, "gap between charts that unwrapping leaves, at most 1/16 of the side")
+      bake("unwrap_margin", &Object::unwrap_margin,
+           "gap between charts that unwrapping leaves, at most 1/16 of the side")
           .range(0, 1024)
           .unit("texels"),
       bake("tangent_uv", &Object::tangent_uv, "UV layer of the normal map; the tangent frame is its own")
