@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/names.h"
+#include "base/version.h"
 #include "cli/bake.h"
 #include "cli/decode.h"
 #include "cli/doctor.h"
@@ -145,7 +146,7 @@ std::string said_plainly(const CLI::ParseError& problem) {
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{purpose, "rnmbake"};
   app.formatter(std::make_shared<HelpFormat>());
-  app.set_version_flag("--version", "rnmbake " RNMBAKE_VERSION, "show the version and end");
+  app.set_version_flag("--version", std::string("rnmbake ") + version, "show the version and end");
   app.set_help_flag("-h,--help", "show this help and end");
   app.fallthrough()->allow_extras();
   app.require_subcommand(0, 1);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/version.h"
 #include "blender/find.h"
 #include "blender/probe.h"
 #include "blender/scripts.h"
@@ -94,7 +95,7 @@ nlohmann::json as_json(const Findings& findings) {
   nlohmann::json json;
   json["schema_version"] = 1;
   json["usable"] = findings.blender.has_value();
-  json["rnmbake"] = RNMBAKE_VERSION;
+  json["rnmbake"] = version;
   json["openimageio"] = RNMBAKE_OPENIMAGEIO_VERSION;
   json["blender"] = nullptr;
   if (const auto& blender = findings.blender) {
@@ -125,7 +126,7 @@ void write_table(const Findings& findings, std::ostream& out) {
   const auto line = [&](const char* name, const std::string& value) {
     out << fmt::format("{:<14}{}\n", name, value);
   };
-  line("rnmbake", RNMBAKE_VERSION);
+  line("rnmbake", version);
   if (const auto& blender = findings.blender) {
     line("Blender", fmt::format("{} ({})", blender->version_text, blender->executable.string()));
     if (!blender->build.empty()) line("  build", blender->build);

@@ -1,5 +1,3 @@
-# The version has one home: project() in the top CMakeLists.txt.
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/cli/app.cpp
-  PROPERTIES COMPILE_DEFINITIONS RNMBAKE_VERSION="${PROJECT_VERSION}")
+# doctor names the image library that this build links.
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/cli/doctor.cpp
-  PROPERTIES COMPILE_DEFINITIONS "RNMBAKE_VERSION=\"${PROJECT_VERSION}\";RNMBAKE_OPENIMAGEIO_VERSION=\"${OpenImageIO_VERSION}\"")
+  PROPERTIES COMPILE_DEFINITIONS RNMBAKE_OPENIMAGEIO_VERSION="${OpenImageIO_VERSION}")
