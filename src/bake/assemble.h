@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bake/plan.h"
-#include "bake/surface.h"
+#include "scene/surface.h"
 #include "image/bakes.h"
 
 #include <vector>

@@ -10,7 +10,7 @@
 // degrees off the face instead: cheap, and wrong there.
 #pragma once
 
-#include "bake/surface.h"
+#include "scene/surface.h"
 #include "base/math.h"
 #include "basis/basis_set.h"
 #include "config/bake_settings.h"

@@ -3,7 +3,7 @@
 
 #include "bake/plan.h"
 #include "bake/request.h"
-#include "bake/surface.h"
+#include "scene/surface.h"
 #include "config/bake_settings.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"

@@ -3,7 +3,7 @@
 
 #include "bake/plan.h"
 #include "bake/receiver.h"
-#include "bake/surface.h"
+#include "scene/surface.h"
 #include "bake/targets.h"
 #include "base/error.h"
 #include "scene/survey.h"

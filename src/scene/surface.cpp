@@ -1,4 +1,4 @@
-#include "bake/surface.h"
+#include "scene/surface.h"
 
 #include <algorithm>
 #include <utility>

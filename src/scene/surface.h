@@ -1,4 +1,4 @@
-// bake/surface.h - the triangles of one target, in world space, ready to become receivers.
+// scene/surface.h - the triangles of one target, in world space, ready to become receivers.
 #pragma once
 
 #include "base/math.h"

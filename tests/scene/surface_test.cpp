@@ -1,4 +1,4 @@
-#include "bake/surface.h"
+#include "scene/surface.h"
 
 #include "bake/fixture.h"
 #include "scene/test_meshes.h"

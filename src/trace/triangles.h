@@ -1,0 +1,27 @@
+// trace/triangles.h - every triangle of a scene in world space, as flat arrays.
+#pragma once
+
+#include "base/math.h"
+#include "scene/exchange.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace rnmbake {
+
+/// Corners run anti-clockwise seen from the front. Normals are smooth shading normals, unit, world space.
+struct Triangles {
+  std::vector<Vec3> position;         // [3 x triangles]
+  std::vector<Vec3> normal;           // [3 x triangles]
+  std::vector<Vec2> uv;               // [3 x triangles] of the look's pictures; (0,0) where it has none
+  std::vector<std::uint32_t> look;    // [triangles] -> Exchange::looks
+  std::vector<std::uint32_t> object;  // [triangles] -> Survey::objects
+
+  [[nodiscard]] std::size_t size() const { return look.size(); }
+};
+
+/// All objects that block light, in order. Triangles without area or with a corner that is not finite are
+/// left out.
+[[nodiscard]] Triangles world_triangles(const Exchange& scene);
+
+}  // namespace rnmbake
