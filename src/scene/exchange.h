@@ -29,15 +29,15 @@ struct NormalMap {
 /// A picture stands in place of the constant; it is read bilinearly, clamped at the borders.
 struct Look {
   std::string material;
-  Vec3 albedo{0, 0, 0};    // in [0, 1]
-  Vec3 emission{0, 0, 0};  // radiance, the same from both sides
+  Vec3 albedo{0, 0, 0};                            // in [0, 1]
+  Vec3 emission{0, 0, 0};                          // radiance, the same from both sides
   int albedo_picture = -1, emission_picture = -1;  // indices into Exchange::pictures
   int picture_uv = -1;                             // index into Exchange::picture_uvs
   int normal_map = -1;                             // index into Exchange::normal_maps
 };
 
-/// Radiance from where nothing is hit. A picture is equirectangular as Blender's: z is up, the top row is
-/// +z, the picture's middle column is -y's opposite (see world_uv()).
+/// Radiance from where nothing is hit. A picture is equirectangular as Blender's: the top row is +z, the
+/// middle column +x, the left quarter +y (see world_uv()).
 struct World {
   Vec3 radiance{0, 0, 0};
   int picture = -1;
@@ -66,11 +66,17 @@ struct Exchange {
   std::vector<NormalMap> normal_maps;
   std::vector<Look> looks;
   std::vector<std::vector<int>> object_looks;  // [objects][slots], never empty for an object
+  std::vector<char>
+      unlit;  // [objects] or empty, 1: shows itself to cameras alone, blocks and reflects nothing
   World world;
   std::optional<Camera> camera;
   std::vector<OutsideModel> outside;
 
-  [[nodiscard]] const Look& look(std::size_t object, std::size_t slot) const;  // slots past the last: the last
+  [[nodiscard]] const Look& look(std::size_t object,
+                                 std::size_t slot) const;  // slots past the last: the last
+  [[nodiscard]] bool takes_part(std::size_t object) const {
+    return object >= unlit.size() || unlit[object] == 0;
+  }
 };
 
 /// Where Blender reads an equirectangular picture for a unit direction; v runs up.
@@ -78,12 +84,21 @@ struct Exchange {
 /// The inverse of world_uv(): unit direction.
 [[nodiscard]] Vec3 world_direction(const Vec2& uv);
 
-/// Checks sizes, indices and finiteness of everything. Throws Error(io) where the file cannot be read,
-/// Error(unsupported) for another version, Error(invalid_input) naming file, owner and what is wrong.
+inline constexpr const char* exchange_ending = ".rnmscene";
+
+/// Checks the checksum, then sizes, indices and finiteness of everything. Throws Error(io) where the file
+/// cannot be read, Error(unsupported) for another version, Error(invalid_input) naming file, owner and what
+/// is wrong.
 [[nodiscard]] Exchange read_exchange(const std::filesystem::path& file);
 
-/// The same from memory; `name` goes into messages. What a fuzzer feeds.
+/// The same from memory, whatever the checksum says: what a fuzzer feeds. `name` goes into messages.
 [[nodiscard]] Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name);
+
+/// What export_entry.py left: survey.json with the key "exchange", and its data (docs/rnmscene-format.md).
+[[nodiscard]] Exchange read_exported(const std::filesystem::path& json_file);
+
+/// The bytes of the file; the same for the same scene.
+[[nodiscard]] std::string exchange_bytes(const Exchange& scene);
 
 /// Writes whole or not at all. Throws Error(io).
 void write_exchange(const std::filesystem::path& file, const Exchange& scene);

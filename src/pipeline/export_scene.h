@@ -1,0 +1,27 @@
+// pipeline/export_scene.h - the scene as the reference tracer sees it, and what of it becomes lightmaps.
+#pragma once
+
+#include "pipeline/make_targets.h"
+#include "pipeline/scene_survey.h"
+#include "pipeline/workspace.h"
+#include "scene/exchange.h"
+
+namespace rnmbake {
+
+struct ExportedScene {
+  Exchange exchange;
+  TargetList list;  // of exchange.survey's objects
+  SurveyedScene
+      scene;  // its survey is empty: exchange.survey is it; `blend` is the one with lambert materials
+};
+
+/// Launches Blender twice (albedo and emission, then everything else), and once more where something has to
+/// be unwrapped: meshes then have their UVs as layer "Lightmap". The materials are the lambert ones whatever
+/// the settings say. A scene file that is a .rnmscene already is read instead, and `scene.blend` is then
+/// empty. Throws like survey_scene(), make_targets() and read_exchange().
+[[nodiscard]] ExportedScene export_scene(Workspace& workspace);
+
+/// Whether the scene of the settings is a .rnmscene file.
+[[nodiscard]] bool is_exchange(const std::filesystem::path& file);
+
+}  // namespace rnmbake
