@@ -2,10 +2,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/log.h"
 
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include <toml++/toml.h>
 
@@ -71,6 +73,25 @@ BasisFile read_basis_file(const std::filesystem::path& file) {
   }
   result.warnings = check_basis(result.set);
   return result;
+}
+
+std::vector<BasisDirection> choose_bases(const BakingSettings& settings) {
+  BasisSet set = rnm_set();
+  if (!settings.basis.empty()) {
+    BasisFile file = read_basis_file(settings.basis);
+    for (const std::string& warning : file.warnings) log::warn("{}", warning);
+    set = std::move(file.set);
+  }
+  if (!settings.basis.empty() && settings.bases.empty()) return set.directions;
+  std::vector<BasisDirection> known = set.directions;
+  if (std::ranges::count(known, "flat", &BasisDirection::name) == 0) known.push_back(flat_direction());
+  std::vector<BasisDirection> chosen;
+  for (const std::string& name : settings.bases) {
+    const auto found = std::ranges::find(known, name, &BasisDirection::name);
+    if (found == known.end()) fail(ExitCode::usage, "no basis '{}' in {}", name, set.name);
+    chosen.push_back(*found);
+  }
+  return chosen;
 }
 
 }  // namespace rnmbake

@@ -1,7 +1,8 @@
-// cli/basis_file.h - reads a list of directions to bake for from TOML.
+// cli/basis_file.h - the directions to bake for, out of RNM's or of a list in TOML.
 #pragma once
 
 #include "basis/basis_set.h"
+#include "config/bake_settings.h"
 
 #include <filesystem>
 #include <string>
@@ -18,5 +19,9 @@ struct BasisFile {
 /// length). Throws Error(io) where the file cannot be read and Error(invalid_input), with the line, where it
 /// does not parse, holds another key or a direction that check_basis() rejects.
 [[nodiscard]] BasisFile read_basis_file(const std::filesystem::path& file);
+
+/// The directions that --bases and --basis choose. Logs a file's warnings. Throws as read_basis_file(), and
+/// Error(usage) where the file does not have a name.
+[[nodiscard]] std::vector<BasisDirection> choose_bases(const BakingSettings& settings);
 
 }  // namespace rnmbake

@@ -1,17 +1,15 @@
 #include "cli/inspect.h"
 
 #include "base/error.h"
-#include "blender/find.h"
-#include "blender/real_blender.h"
 #include "cli/inspect_scene.h"
 #include "cli/inspect_write.h"
 #include "cli/settings_flags.h"
+#include "pipeline/late_blender.h"
 #include "pipeline/scene_survey.h"
 #include "process/stop.h"
 
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -26,17 +24,9 @@ struct InspectFlags {
   bool json = false;
 };
 
-RealBlender make_blender(const BakeSettings& settings) {
-  RealBlender::Options options;
-  options.trust.allow_scripts = settings.scene.allow_scripts;
-  if (!settings.run.scripts.empty()) options.scripts = settings.run.scripts;
-  const std::string& wanted = settings.run.blender;
-  return {probe_version(find_blender(wanted.empty() ? std::nullopt : std::optional(wanted))), options};
-}
-
 void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
   config.globals.scene.materials = SceneSettings::Materials::full;  // look at the scene as it is
-  RealBlender blender = make_blender(config.globals);
+  LateBlender blender(config.globals);
   Workspace workspace(config, blender);
   Survey survey = survey_scene(workspace).survey;
   survey.scene_file = config.globals.scene.file.string();

@@ -3,34 +3,10 @@
 #include "bake/assemble.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "lightmap/layout.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rnmbake {
-namespace {
-
-MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& note) {
-  MergeOptions options;
-  options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
-  options.depth = output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
-  options.dilate = note.dilate;
-  options.repair = output.repair;
-  return options;
-}
-
-void warn_about(const std::string& key, const MergeCounts& counts, bool repaired) {
-  if (counts.non_finite > 0) {
-    log::warn("{}: {} texels are NaN or infinite{}", key, counts.non_finite,
-              repaired ? ", repaired" : "; --repair fills them from their neighbours");
-  }
-  if (counts.beyond_half > 0) {
-    log::warn("{}: {} values beyond 65504 were clamped; --depth float keeps them", key, counts.beyond_half);
-  }
-}
-
-}  // namespace
 
 DeliveryDesk::DeliveryDesk(const BakeContext& context, const OutputSettings& output,
                            std::vector<DeliveryNote> notes)
@@ -90,34 +66,12 @@ Delivery DeliveryDesk::finish(std::size_t target_index, Shelf&& shelf) const {
   try {
     const TargetBakes bakes =
         assemble(target, tiles, pictures, context_.bases, note.surface.get(), output_.frames);
-    MergedLightmap merged = merge(bakes, merge_options(output_, note));
-    warn_about(target.key, merged.counts, output_.repair);
-    LightmapMetadata metadata = note.metadata;
-    metadata.bases = context_.bases;
-    metadata.repaired = merged.counts.repaired > 0;
-    write_metadata(metadata, merged.image);
-    return Delivered{write(note.stem, std::move(merged.image)), merged.counts};
+    return deliver_lightmap(bakes, note, output_);
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
     log::error("{}", error.what());
     return NotDelivered{error.what()};
   }
-}
-
-std::vector<std::string> DeliveryDesk::write(const std::string& stem, LayeredImage image) const {
-  const Depth depth = output_.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
-  std::vector<std::string> files;
-  const auto save = [&](const std::string& name, const LayeredImage& content) {
-    write_exr(output_.dir / name, content, depth);
-    files.push_back(name);
-  };
-  if (output_.layout == OutputSettings::Layout::layers) {
-    save(stem + ".exr", image);
-  } else {
-    for (const LayerFile& file : one_file_per_layer(std::move(image)))
-      save(stem + "." + file.name + ".exr", file.image);
-  }
-  return files;
 }
 
 }  // namespace rnmbake

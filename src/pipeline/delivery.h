@@ -3,40 +3,15 @@
 
 #include "bake/plan.h"
 #include "bake/request.h"
-#include "scene/surface.h"
 #include "config/bake_settings.h"
-#include "lightmap/merge.h"
-#include "lightmap/metadata.h"
+#include "pipeline/deliver_lightmap.h"
 
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace rnmbake {
-
-/// One lightmap that was written.
-struct Delivered {
-  std::vector<std::string> files;  // names within the output folder
-  MergeCounts counts;
-};
-struct NotDelivered {
-  std::string reason;
-};
-/// How it ended for a target; empty: not yet.
-using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
-
-/// What is known of a target besides its geometry.
-struct DeliveryNote {
-  std::string stem;           // of its file names
-  LightmapMetadata metadata;  // for the headers
-  int dilate = 4;
-  std::shared_ptr<const Surface> surface;  // where the identity or the frames need it
-};
 
 /// Thread-safe. Writing errors (a full disk) are thrown: they concern every target that is left.
 class DeliveryDesk {
@@ -58,7 +33,6 @@ class DeliveryDesk {
     std::map<std::size_t, FloatImage> pictures;  // by tile
   };
   [[nodiscard]] Delivery finish(std::size_t target, Shelf&& shelf) const;
-  [[nodiscard]] std::vector<std::string> write(const std::string& stem, LayeredImage image) const;
 
   BakeContext context_;
   OutputSettings output_;

@@ -1,0 +1,148 @@
+#include "pipeline/bake_run.h"
+
+#include "base/log.h"
+#include "base/names.h"
+#include "pipeline/delivery.h"
+#include "pipeline/manifest.h"
+#include "pipeline/save_scene.h"
+#include "pipeline/target_facts.h"
+
+#include <memory>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+const char* name_of(BakingSettings::Device device) {
+  using Device = BakingSettings::Device;
+  switch (device) {
+    case Device::cpu:
+      return "CPU";
+    case Device::cuda:
+      return "CUDA";
+    case Device::optix:
+      return "OPTIX";
+    case Device::hip:
+      return "HIP";
+    case Device::metal:
+      return "METAL";
+    case Device::oneapi:
+      return "ONEAPI";
+  }
+  return "CPU";
+}
+
+const char* name_of(BakingSettings::Dispatch dispatch) {
+  using Mode = BakingSettings::Dispatch;
+  return dispatch == Mode::basis ? "basis" : dispatch == Mode::object ? "object" : "scene";
+}
+
+CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings& object) {
+  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
+}
+
+/// What the version's bakes average a texel over (docs/accuracy.md).
+const char* footprint(const BlenderVersion& version) {
+  return version.major >= 5 ? "texel" : "half texel";
+}
+
+class BakeRun {
+ public:
+  BakeRun(Workspace& workspace, const SurveyedScene& scene, const TargetList& list,
+          const std::vector<BasisDirection>& bases)
+      : workspace_(workspace),
+        settings_(workspace.settings()),
+        scene_(scene),
+        list_(list),
+        bases_(bases),
+        horizons_(list.targets.size()) {}
+
+  BakeOutcome run() {
+    make_plan();
+    const BakeContext context{scene_.survey, list_.targets, bases_, plan_};
+    log::info("baking {} lightmaps x {} bases in {} launch{} of Blender {}", list_.targets.size(),
+              bases_.size(), plan_.dispatches.size(), plan_.dispatches.size() == 1 ? "" : "es",
+              workspace_.blender().info().version_text);
+    DeliveryDesk desk(context, settings_.output, notes_);
+    BakeOutcome outcome;
+    outcome.timings = run_dispatches(workspace_, context, scene_.blend, desk);
+    outcome.deliveries = desk.deliveries();
+    write_records(outcome);
+    return outcome;
+  }
+
+ private:
+  [[nodiscard]] bool by_receiver() const { return settings_.bake.recipe == BakingSettings::Recipe::receiver; }
+
+  void make_plan() {
+    FileStems stems;
+    for (std::size_t i = 0; i < list_.targets.size(); ++i) {
+      const Target& target = list_.targets[i];
+      notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, nullptr});
+      plan_target(i);
+    }
+    group_units(plan_, resolve_dispatch(settings_.bake));
+  }
+
+  [[nodiscard]] LightmapMetadata metadata(std::size_t i) const {
+    const ObjectSettings& object = list_.settings[i];
+    const BlenderInfo& blender = workspace_.blender().info();
+    LightmapMetadata metadata = target_metadata(list_.targets[i], object, settings_.output);
+    metadata.recipe = by_receiver()                 ? "receiver"
+                      : settings_.bake.correct_bump ? "flat-normal-map, correct-bump"
+                                                    : "flat-normal-map";
+    metadata.horizon = !by_receiver()                                        ? "Blender's"
+                       : object.horizon == ObjectSettings::Horizon::identity ? "identity"
+                                                                             : "clamp";
+    metadata.footprint = footprint(blender.version);
+    metadata.bounces = settings_.bake.bounces;
+    metadata.blender_version = blender.version_text;
+    return metadata;
+  }
+
+  void plan_target(std::size_t i) {
+    const Target& target = list_.targets[i];
+    const CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
+    if (!by_receiver()) add_object_units(plan_, i, target, bases_, cycles);
+    if (!by_receiver() && !settings_.output.frames) return;
+
+    const auto surface = std::make_shared<const Surface>(surface_of(scene_.survey, target));
+    bool keep_surface = settings_.output.frames;
+    if (by_receiver()) {
+      std::vector<BasisDirection> bases = bases_;
+      for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
+      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon,
+                                  Vec2(float(target.width), float(target.height)));
+      horizons_[i] = sheets.counts;
+      keep_surface |= sheets.sheets.size() > bases.size();
+      add_receiver_units(plan_, i, target, std::move(sheets), bases_, cycles);
+    }
+    if (keep_surface) notes_[i].surface = surface;
+  }
+
+  void write_records(const BakeOutcome& outcome) {
+    const std::string with_uvs = save_scene_with_uvs(workspace_, scene_.survey, scene_.own, list_.targets);
+    const auto manifest =
+        make_manifest({settings_, scene_.survey, list_, bases_, notes_, horizons_, outcome.deliveries,
+                       name_of(resolve_dispatch(settings_.bake)), with_uvs, outcome.timings});
+    write_atomically(settings_.output.dir / "manifest.json", manifest.dump(2) + "\n");
+  }
+
+  Workspace& workspace_;
+  const BakeSettings& settings_;
+  const SurveyedScene& scene_;
+  const TargetList& list_;
+  const std::vector<BasisDirection>& bases_;
+  Plan plan_;
+  std::vector<DeliveryNote> notes_;
+  std::vector<HorizonCounts> horizons_;
+};
+
+}  // namespace
+
+BakeOutcome run_bake(Workspace& workspace, const SurveyedScene& scene, const TargetList& list,
+                     const std::vector<BasisDirection>& bases) {
+  return BakeRun(workspace, scene, list, bases).run();
+}
+
+}  // namespace rnmbake

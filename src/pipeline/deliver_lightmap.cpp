@@ -1,0 +1,77 @@
+#include "pipeline/deliver_lightmap.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "lightmap/layout.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+Depth depth_of(const OutputSettings& output) {
+  return output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
+}
+
+MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& note) {
+  MergeOptions options;
+  options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
+  options.depth = depth_of(output);
+  options.dilate = note.dilate;
+  options.repair = output.repair;
+  return options;
+}
+
+void warn_about(const std::string& key, const MergeCounts& counts, bool repaired) {
+  if (counts.non_finite > 0) {
+    log::warn("{}: {} texels are NaN or infinite{}", key, counts.non_finite,
+              repaired ? ", repaired" : "; --repair fills them from their neighbours");
+  }
+  if (counts.beyond_half > 0) {
+    log::warn("{}: {} values beyond 65504 were clamped; --depth float keeps them", key, counts.beyond_half);
+  }
+}
+
+std::vector<std::string> write(const OutputSettings& output, const std::string& stem, LayeredImage image) {
+  std::vector<std::string> files;
+  const auto save = [&](const std::string& name, const LayeredImage& content) {
+    write_exr(output.dir / name, content, depth_of(output));
+    files.push_back(name);
+  };
+  if (output.layout == OutputSettings::Layout::layers) {
+    save(stem + ".exr", image);
+  } else {
+    for (const LayerFile& file : one_file_per_layer(std::move(image)))
+      save(stem + "." + file.name + ".exr", file.image);
+  }
+  return files;
+}
+
+}  // namespace
+
+std::size_t count_failed(const std::vector<Delivery>& deliveries) {
+  return static_cast<std::size_t>(std::count_if(
+      deliveries.begin(), deliveries.end(),
+      [](const Delivery& delivery) { return !delivery || std::holds_alternative<NotDelivered>(*delivery); }));
+}
+
+void prepare_output(const OutputSettings& output) {
+  if (output.dir.empty())
+    fail(ExitCode::usage, "no output folder: pass -o DIR, or set dir in [output] of the project file");
+  make_folders(output.dir);
+  AtomicFile(output.dir / "manifest.json").write(std::string(1 << 16, ' '));  // never committed
+}
+
+Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note, const OutputSettings& output) {
+  MergedLightmap merged = merge(bakes, merge_options(output, note));
+  warn_about(note.metadata.object, merged.counts, output.repair);
+  LightmapMetadata metadata = note.metadata;
+  for (const BasisBake& basis : bakes.bases) metadata.bases.push_back({basis.name, basis.direction});
+  metadata.repaired = merged.counts.repaired > 0;
+  write_metadata(metadata, merged.image);
+  return Delivered{write(output, note.stem, std::move(merged.image)), merged.counts};
+}
+
+}  // namespace rnmbake

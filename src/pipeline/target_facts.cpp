@@ -1,0 +1,35 @@
+#include "pipeline/target_facts.h"
+
+#include "base/log.h"
+#include "base/version.h"
+#include "scene/tangents.h"
+
+namespace rnmbake {
+
+Surface surface_of(const Survey& survey, const Target& target) {
+  const SceneObject& object = survey.objects[target.object];
+  const Mesh& mesh = survey.mesh_of(object);
+  const TangentFrames frames = tangent_frames(mesh, *target.tangent_uv, object.to_world);
+  if (frames.degenerate_corners > 0) {
+    log::info("{}: {} corners of UV layer '{}' have no direction; their tangents are arbitrary", target.key,
+              frames.degenerate_corners, target.tangent_layer);
+  }
+  return make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
+}
+
+LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,
+                                 const OutputSettings& output) {
+  LightmapMetadata metadata;
+  metadata.green = target.flip_green ? Green::y_down : Green::y_up;
+  metadata.normalize =
+      output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
+  metadata.samples = object.samples;
+  metadata.seed = object.seed;
+  metadata.rnmbake_version = version;
+  metadata.object = target.key;
+  metadata.uv_layer = target.uv_layer;
+  metadata.tangent_uv_layer = target.tangent_layer;
+  return metadata;
+}
+
+}  // namespace rnmbake
