@@ -4,6 +4,7 @@
 #include "image/float_image.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace rnmbake {
@@ -64,12 +65,19 @@ class PictureComparison {
   /// Sums over the texels of a tile and all their channels.
   struct Tile {
     double values = 0, error = 0, squared_error = 0, reference = 0;
+    Tile& operator+=(const Tile& other);
+    Tile operator-(const Tile& other) const;
   };
   struct Worst {
     double error = -1;
     int x = 0, y = 0;
     std::size_t picture = 0;
   };
+
+  void add_texel(const ComparedPicture& candidate, const ComparedPicture& reference, int x, int y,
+                 Tile& tile);
+  [[nodiscard]] Statistic jackknife(const Tile& sum,
+                                    const std::function<double(const Tile&)>& estimate) const;
 
   std::vector<Tile> tiles_;
   std::vector<float> errors_;  // one for each texel

@@ -1,0 +1,223 @@
+#include "image/metrics.h"
+
+#include "base/error.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+constexpr int kSeeds = 100;
+constexpr int kFewest = 90, kMost = 99;  // of 100 intervals of 95 %, those that hold the truth
+
+/// A field of the given deviation that is constant over blocks of 4x4 texels.
+FloatImage blocky(int size, double deviation, std::mt19937& random) {
+  std::normal_distribution<double> normal(0, deviation);
+  FloatImage image(size, size, 3);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const bool first = x % 4 == 0 && y % 4 == 0 && c == 0;
+        image.texel(x, y)[c] =
+            first ? static_cast<float>(normal(random)) : image.texel(x - x % 4, y - y % 4)[0];
+      }
+    }
+  }
+  return image;
+}
+
+FloatImage plain(int size, float value, int channels = 3) {
+  FloatImage image(size, size, channels);
+  std::ranges::fill(image.data(), value);
+  return image;
+}
+
+void add_noise(FloatImage& image, double deviation, std::mt19937& random) {
+  std::normal_distribution<double> normal(0, deviation);
+  for (float& value : image.data()) value += static_cast<float>(normal(random));
+}
+
+FloatImage sum(const FloatImage& a, const FloatImage& b) {
+  FloatImage result = a;
+  for (std::size_t i = 0; i < a.data().size(); ++i) result.data()[i] += b.data()[i];
+  return result;
+}
+
+bool holds(const Statistic& statistic, double truth) {
+  return statistic.low95 <= truth && truth <= statistic.high95;
+}
+
+PictureMetrics compare(const ComparedPicture& candidate, const ComparedPicture& reference) {
+  PictureComparison comparison;
+  comparison.add(candidate, reference, {});
+  return comparison.metrics();
+}
+
+/// How many of 100 intervals hold the truth. The error is 0.05 + a blocky field of 0.1, and both sides have
+/// noise of 0.2 (candidate, two halves of 0.28) and 0.1 (reference, standard error known).
+struct Hits {
+  int bias = 0, relative_bias = 0, rmse = 0, relative_rmse = 0;
+  double mean_square = 0;
+};
+
+Hits count_hits(int size) {
+  Hits hits;
+  const FloatImage truth = plain(size, 2), error = plain(size, 0.1F);
+  const double square = 0.05 * 0.05 + 0.1 * 0.1;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 random(seed);
+    FloatImage first = sum(plain(size, 2.05F), blocky(size, 0.1, random)), second = first, reference = truth;
+    add_noise(first, 0.2 * std::sqrt(2), random);
+    add_noise(second, 0.2 * std::sqrt(2), random);
+    add_noise(reference, 0.1, random);
+    const PictureMetrics seen = compare({&first, &second, nullptr}, {&reference, nullptr, &error});
+    hits.bias += holds(seen.bias, 0.05);
+    hits.relative_bias += holds(seen.relative_bias, 0.025);
+    hits.rmse += holds(seen.rmse, std::sqrt(square));
+    hits.relative_rmse += holds(seen.relative_rmse, std::sqrt(square) / 2);
+    hits.mean_square += seen.rmse.value * seen.rmse.value / kSeeds;
+  }
+  return hits;
+}
+
+TEST(Metrics, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  for (const int size : {32, 64}) {
+    const Hits hits = count_hits(size);
+    for (const int count : {hits.bias, hits.relative_bias, hits.rmse, hits.relative_rmse}) {
+      EXPECT_GE(count, kFewest) << size;
+      EXPECT_LE(count, kMost) << size;
+    }
+  }
+}
+
+TEST(Metrics, NoiseIsTakenOutOfTheSquaredError) {
+  const int size = 64;
+  const Hits hits = count_hits(size);
+  const double square = 0.05 * 0.05 + 0.1 * 0.1;
+  // One seed's deviation of the blocky part: 256 squares of normal numbers, plus the cross term.
+  const double blocks = size * size / 16.0;
+  const double deviation = std::sqrt((2 * 1e-4 + 4 * 0.0025 * 0.01) / blocks / kSeeds);
+  EXPECT_NEAR(hits.mean_square, square, 4 * deviation);
+}
+
+TEST(Metrics, NothingButNoiseLeavesNoError) {
+  int with_zero = 0, bias_with_zero = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 random(1000 + seed);
+    FloatImage first = plain(32, 1), second = first, reference = first;
+    add_noise(first, 0.5, random);
+    add_noise(second, 0.5, random);
+    add_noise(reference, 0.5, random);
+    FloatImage error = plain(32, 0.5F);
+    const PictureMetrics seen = compare({&first, &second, nullptr}, {&reference, nullptr, &error});
+    with_zero += holds(seen.rmse, 0);
+    bias_with_zero += holds(seen.bias, 0);
+  }
+  EXPECT_GE(with_zero, kFewest);  // one-sided: an interval wholly below 0 reads [0, 0]
+  EXPECT_GE(bias_with_zero, kFewest);
+  EXPECT_LE(bias_with_zero, kMost);
+}
+
+TEST(Metrics, WithoutNoiseEverythingIsExact) {
+  FloatImage candidate = plain(16, 1.5F);
+  const FloatImage reference = plain(16, 2);
+  candidate.texel(3, 7)[1] = 5;
+  const PictureMetrics seen = compare({&candidate}, {&reference});
+  const double values = 16 * 16 * 3;
+  const double square = (0.25 * (values - 1) + 9) / values;
+  EXPECT_EQ(seen.texels, 256U);
+  EXPECT_DOUBLE_EQ(seen.reference_mean, 2);
+  EXPECT_NEAR(seen.bias.value, (-0.5 * (values - 1) + 3) / values, 1e-12);
+  EXPECT_NEAR(seen.relative_bias.value, seen.bias.value / 2, 1e-12);
+  EXPECT_NEAR(seen.rmse.value, std::sqrt(square), 1e-12);
+  EXPECT_NEAR(seen.relative_rmse.value, std::sqrt(square) / 2, 1e-12);
+  EXPECT_NEAR(seen.p95, 0.5, 1e-7);
+  EXPECT_NEAR(seen.p99, 0.5, 1e-7);
+  EXPECT_NEAR(seen.max, std::sqrt((9 + 0.5) / 3), 1e-6);
+  EXPECT_EQ(seen.max_x, 3);
+  EXPECT_EQ(seen.max_y, 7);
+  EXPECT_FALSE(seen.candidate_noise_known);
+  EXPECT_FALSE(seen.reference_noise_known);
+}
+
+TEST(Metrics, PercentilesAreThoseOfTheTexels) {
+  FloatImage candidate(100, 1, 1);
+  const FloatImage reference(100, 1, 1);
+  for (int x = 0; x < 100; ++x) candidate.texel(x, 0)[0] = static_cast<float>(x + 1);
+  const PictureMetrics seen = compare({&candidate}, {&reference});
+  EXPECT_EQ(seen.p95, 95);
+  EXPECT_EQ(seen.p99, 99);
+  EXPECT_EQ(seen.max, 100);
+}
+
+TEST(Metrics, UncoveredAndNonFiniteTexelsNeverCount) {
+  FloatImage candidate = plain(16, 1), reference = plain(16, 1), coverage = plain(16, 1, 1),
+             validity = plain(16, 1, 1);
+  for (int x = 0; x < 16; ++x) {
+    candidate.texel(x, 0)[0] = 1e6F;  // uncovered
+    coverage.texel(x, 0)[0] = 0;
+    reference.texel(x, 1)[2] = -1e6F;  // unsound
+    validity.texel(x, 1)[0] = 0.25F;
+  }
+  candidate.texel(0, 0)[0] = std::numeric_limits<float>::quiet_NaN();
+  candidate.texel(4, 4)[1] = std::numeric_limits<float>::quiet_NaN();
+  reference.texel(5, 5)[0] = std::numeric_limits<float>::infinity();
+  PictureComparison comparison;
+  comparison.add({&candidate}, {&reference}, {{&coverage}, {&validity, 0.5F}, {nullptr}});
+  const PictureMetrics seen = comparison.metrics();
+  EXPECT_EQ(seen.texels, 16U * 14 - 2);
+  EXPECT_EQ(seen.non_finite, 2U);
+  EXPECT_EQ(seen.bias.value, 0);
+  EXPECT_EQ(seen.rmse.value, 0);
+  EXPECT_EQ(seen.max, 0);
+}
+
+TEST(Metrics, OfNothingIsNothing) {
+  const FloatImage picture = plain(8, 1), nowhere(8, 8, 1);
+  PictureComparison comparison;
+  comparison.add({&picture}, {&picture}, {{&nowhere}});
+  EXPECT_EQ(comparison.metrics().texels, 0U);
+  EXPECT_EQ(PictureComparison().metrics().texels, 0U);
+}
+
+TEST(Metrics, OneTexelHasNoInterval) {
+  const FloatImage candidate = plain(1, 2), reference = plain(1, 1);
+  const PictureMetrics seen = compare({&candidate}, {&reference});
+  EXPECT_EQ(seen.bias.value, 1);
+  EXPECT_TRUE(std::isinf(seen.bias.high95));
+}
+
+TEST(Metrics, BlackOnBothSidesIsNoRelativeError) {
+  const FloatImage black = plain(16, 0), grey = plain(16, 1);
+  EXPECT_EQ(compare({&black}, {&black}).relative_bias.value, 0);
+  EXPECT_TRUE(std::isinf(compare({&grey}, {&black}).relative_rmse.value));
+}
+
+TEST(Metrics, PicturesOfASceneCountTexelByTexel) {
+  const FloatImage small = plain(8, 3), large = plain(16, 1), zero = plain(8, 0), nought = plain(16, 0);
+  PictureComparison one, other;
+  one.add({&small}, {&zero}, {});
+  other.add({&large}, {&nought}, {});
+  one.add(other);
+  const PictureMetrics seen = one.metrics();
+  EXPECT_EQ(seen.texels, 64U + 256);
+  EXPECT_NEAR(seen.bias.value, (64 * 3 + 256 * 1) / 320.0, 1e-12);
+  EXPECT_EQ(seen.max, 3);
+  EXPECT_EQ(seen.max_picture, 0U);
+}
+
+TEST(Metrics, SizesMustFit) {
+  const FloatImage one = plain(8, 1), other = plain(16, 1);
+  PictureComparison comparison;
+  EXPECT_THROW(comparison.add({&one}, {&other}, {}), Error);
+  EXPECT_THROW(comparison.add({&one, &other}, {&one}, {}), Error);
+  EXPECT_THROW(comparison.add({&one}, {&one}, {{&other}}), Error);
+}
+
+}  // namespace
+}  // namespace rnmbake
