@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/survey_meshes.h"
+#include "scene/survey_parse.h"
 
 #include <cmath>
 #include <fstream>
@@ -26,29 +27,13 @@ std::vector<char> read_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Blender writes rows of a matrix that multiplies columns; Imath multiplies rows.
-Mat44 read_matrix(const json& values, const std::string& owner) {
-  if (values.size() != 16) {
-    fail(ExitCode::invalid_input, "{}: its matrix has {} numbers, not 16", owner, values.size());
-  }
-  Mat44 matrix;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      const json& value = values.at(4 * row + column);
-      // Python writes NaN and Infinity, which are no JSON numbers and make the parser refuse the file.
-      matrix[column][row] = value.get<double>();
-    }
-  }
-  return matrix;
-}
-
 SceneObject read_object(const json& entry, std::size_t meshes) {
   SceneObject object;
   object.key = entry.at("key").get<std::string>();
   object.name = entry.at("name").get<std::string>();
   object.instancer = entry.at("instancer").get<std::string>();
   object.type = entry.at("type").get<std::string>();
-  object.mesh = entry.at("mesh").get<int>();
+  object.mesh = index_at(entry, "mesh");
   object.to_world = read_matrix(entry.at("matrix"), "object '" + object.key + "'");
   object.slots = entry.at("slots").get<std::vector<std::string>>();
   object.light_group = entry.at("light_group").get<std::string>();
@@ -94,7 +79,7 @@ void read_objects(const json& content, Survey& survey) {
   }
 }
 
-void read_meshes(const json& content, const std::vector<char>& data, Survey& survey) {
+void read_meshes(const json& content, Blob& data, Survey& survey) {
   for (const json& entry : content.at("meshes")) {
     const int index = static_cast<int>(survey.meshes.size());
     const auto owner = [&]() -> std::string {  // users know their objects, not the meshes
@@ -110,14 +95,36 @@ void read_meshes(const json& content, const std::vector<char>& data, Survey& sur
 }
 
 Survey read_content(const json& content, const fs::path& folder) {
-  if (content.at("format").get<int>() != survey_format || content.at("byte_order") != "little") {
-    fail(ExitCode::unsupported, "{}: written by scripts of another rnmbake (format {}, {} endian)",
-         folder.string(), content.at("format").dump(), content.at("byte_order").dump());
-  }
   const std::vector<char> data = read_bytes(folder / content.at("data").get<std::string>());
-  if (data.size() != content.at("data_bytes").get<std::size_t>()) {
+  if (data.size() != count_at(content, "data_bytes")) {
     fail(ExitCode::invalid_input, "{}: survey.bin has {} bytes, {} were written; is the disk full?",
-         folder.string(), data.size(), content.at("data_bytes").get<std::size_t>());
+         folder.string(), data.size(), count_at(content, "data_bytes"));
+  }
+  Blob blob(data.data(), data.size());
+  return parse_survey(content, blob);
+}
+
+}  // namespace
+
+Mat44 read_matrix(const json& values, const std::string& owner) {
+  if (values.size() != 16) {
+    fail(ExitCode::invalid_input, "{}: its matrix has {} numbers, not 16", owner, values.size());
+  }
+  Mat44 matrix;  // Blender writes rows of a matrix that multiplies columns; Imath multiplies rows
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const json& value = values.at(4 * row + column);
+      // Python writes NaN and Infinity, which are no JSON numbers and make the parser refuse the file.
+      matrix[column][row] = value.get<double>();
+    }
+  }
+  return matrix;
+}
+
+Survey parse_survey(const json& content, Blob& data) {
+  if (content.at("format") != survey_format || content.at("byte_order") != "little") {
+    fail(ExitCode::unsupported, "written by scripts of another rnmbake (format {}, {} endian)",
+         content.at("format").dump(), content.at("byte_order").dump());
   }
   Survey survey;
   survey.scene_file = content.at("scene_file").get<std::string>();
@@ -135,8 +142,6 @@ Survey read_content(const json& content, const fs::path& folder) {
   survey.warnings = content.at("warnings").get<std::vector<std::string>>();
   return survey;
 }
-
-}  // namespace
 
 Survey read_survey(const fs::path& json_file) {
   const std::vector<char> text = read_bytes(json_file);

@@ -11,32 +11,7 @@ namespace rnmbake {
 namespace {
 
 using nlohmann::json;
-using Owner = std::function<std::string()>;
 using Indices = std::vector<std::uint32_t>;
-
-/// Cuts typed arrays out of the bytes of survey.bin.
-class Slicer {
- public:
-  Slicer(const std::vector<char>& data, const Owner& owner) : data_(data), owner_(owner) {}
-
-  template <typename T>
-  std::vector<T> cut(const json& entry, const char* what, std::size_t count) const {
-    static_assert(std::is_standard_layout_v<T>);
-    const auto offset = entry.at(what).get<std::size_t>();
-    if (offset > data_.size() || count > (data_.size() - offset) / sizeof(T)) {
-      fail(ExitCode::invalid_input, "{}the survey's data ends within {}; is the disk full?", owner_(), what);
-    }
-    std::vector<T> values(count);
-    if (count != 0) {
-      std::memcpy(static_cast<void*>(values.data()), data_.data() + offset, count * sizeof(T));
-    }
-    return values;
-  }
-
- private:
-  const std::vector<char>& data_;
-  const Owner& owner_;
-};
 
 void check_below(const Indices& indices, std::size_t limit, const char* what, const Owner& owner) {
   for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -120,26 +95,28 @@ void check_mesh(const Mesh& mesh, const Owner& owner) {
 
 }  // namespace
 
-Mesh read_mesh(const json& entry, const std::vector<char>& data, const Owner& owner) {
-  const Slicer slicer(data, owner);
-  const auto vertices = entry.at("vertices").get<std::size_t>(), loops = entry.at("loops").get<std::size_t>();
-  const auto polygons = entry.at("polygons").get<std::size_t>();
-  const auto triangles = entry.at("triangles").get<std::size_t>();
+Mesh read_mesh(const json& entry, Blob& data, const Owner& owner) {
+  const std::size_t vertices = count_at(entry, "vertices"), loops = count_at(entry, "loops");
+  const std::size_t polygons = count_at(entry, "polygons"), triangles = count_at(entry, "triangles");
+  const auto indices = [&](const char* key, std::size_t count) {
+    return data.cut<std::uint32_t>(entry, key, count, owner);
+  };
   Mesh mesh;
   mesh.name = entry.at("name").get<std::string>();
-  mesh.positions = slicer.cut<Vec3>(entry, "positions", vertices);
-  mesh.loop_vertex = slicer.cut<std::uint32_t>(entry, "loop_vertex", loops);
-  mesh.loop_normal = slicer.cut<Vec3>(entry, "loop_normal", loops);
-  mesh.triangle_loops = slicer.cut<std::uint32_t>(entry, "triangle_loops", 3 * triangles);
-  mesh.triangle_polygon = slicer.cut<std::uint32_t>(entry, "triangle_polygon", triangles);
-  mesh.polygon_start = slicer.cut<std::uint32_t>(entry, "polygon_start", polygons);
-  mesh.polygon_size = slicer.cut<std::uint32_t>(entry, "polygon_size", polygons);
-  mesh.polygon_slot = slicer.cut<std::uint32_t>(entry, "polygon_slot", polygons);
-  for (const json& layer : entry.at("uv_layers")) {
-    mesh.uv_layers.push_back({layer.at("name").get<std::string>(), slicer.cut<Vec2>(layer, "offset", loops)});
-  }
-  mesh.active_uv = entry.at("active_uv").get<int>();
-  mesh.render_uv = entry.at("render_uv").get<int>();
+  mesh.positions = data.cut<Vec3>(entry, "positions", vertices, owner);
+  mesh.loop_vertex = indices("loop_vertex", loops);
+  mesh.loop_normal = data.cut<Vec3>(entry, "loop_normal", loops, owner);
+  mesh.triangle_polygon =
+      indices("triangle_polygon", triangles);  // first: triples of it cannot overflow then
+  mesh.triangle_loops = indices("triangle_loops", 3 * triangles);
+  mesh.polygon_start = indices("polygon_start", polygons);
+  mesh.polygon_size = indices("polygon_size", polygons);
+  mesh.polygon_slot = indices("polygon_slot", polygons);
+  for (const json& layer : entry.at("uv_layers"))
+    mesh.uv_layers.push_back(
+        {layer.at("name").get<std::string>(), data.cut<Vec2>(layer, "offset", loops, owner)});
+  mesh.active_uv = index_at(entry, "active_uv");
+  mesh.render_uv = index_at(entry, "render_uv");
   check_mesh(mesh, owner);
   clamp_slots(mesh.polygon_slot);
   mend_normals(mesh);

@@ -1,0 +1,135 @@
+#include "base/files.h"
+#include "base/hash.h"
+#include "scene/exchange_parts.h"
+
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+namespace rnmbake {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+// The file: magic, version, sizes; the JSON part, filled up with blanks; the binary part; the checksum of
+// everything before it (docs/rnmscene-format.md). Little-endian.
+constexpr std::string_view magic = "rnmscene";
+constexpr std::uint32_t format_version = 1;
+constexpr std::size_t alignment = 16;
+
+struct Header {
+  char magic[8];
+  std::uint32_t version, reserved;
+  std::uint64_t json_bytes, data_bytes;
+};
+static_assert(sizeof(Header) == 32);
+
+constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
+
+std::vector<char> read_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> bytes;
+  if (stream) bytes.assign(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || stream.bad()) fail(ExitCode::io, "{}: cannot be read", file.string());
+  return bytes;
+}
+
+Header read_header(const std::vector<char>& bytes, const std::string& name) {
+  Header header{};
+  if (bytes.size() < sizeof(Header) + checksum_bytes ||
+      std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
+    fail(ExitCode::invalid_input, "{}: not a scene that rnmbake export wrote", name);
+  std::memcpy(&header, bytes.data(), sizeof(Header));
+  if (header.version != format_version) {
+    fail(ExitCode::unsupported, "{}: format {} of .rnmscene, this rnmbake reads {}; export the scene again",
+         name, header.version, format_version);
+  }
+  const std::size_t room = bytes.size() - sizeof(Header) - checksum_bytes;
+  if (header.json_bytes > room || header.data_bytes != room - header.json_bytes) {
+    fail(ExitCode::invalid_input,
+         "{}: it has {} bytes where its beginning promises another size; it was cut off or damaged on its "
+         "way, "
+         "copy or export it again",
+         name, bytes.size());
+  }
+  return header;
+}
+
+std::uint64_t checksum(std::string_view bytes) {
+  return hash64(bytes);
+}
+
+void check_checksum(const std::vector<char>& bytes, const std::string& name) {
+  const std::size_t covered = bytes.size() - checksum_bytes;
+  std::uint64_t promised = 0;
+  std::memcpy(&promised, bytes.data() + covered, checksum_bytes);
+  if (checksum({bytes.data(), covered}) != promised) {
+    fail(ExitCode::invalid_input,
+         "{}: its checksum is wrong, so it was damaged on its way; copy or export it again", name);
+  }
+}
+
+/// Runs `parse` with the name of the file in front of whatever goes wrong.
+template <typename Parse>
+Exchange named(const std::string& name, Parse parse) {
+  try {
+    return parse();
+  } catch (const json::exception& error) {
+    fail(ExitCode::invalid_input, "{}: not a scene that this rnmbake can read: {}", name, error.what());
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name) {
+  const Header header = read_header(bytes, name);
+  return named(name, [&] {
+    const char* text = bytes.data() + sizeof(Header);
+    Blob data(text + header.json_bytes, header.data_bytes);
+    return parse_exchange_content(json::parse(text, text + header.json_bytes), data);
+  });
+}
+
+Exchange read_exchange(const fs::path& file) {
+  const std::vector<char> bytes = read_bytes(file);
+  (void)read_header(bytes, file.string());  // first, since it says more of a file that was cut off
+  check_checksum(bytes, file.string());
+  return parse_exchange(bytes, file.string());
+}
+
+Exchange read_exported(const fs::path& json_file) {
+  const std::vector<char> text = read_bytes(json_file);
+  return named(json_file.string(), [&] {
+    const json content = json::parse(text);
+    const std::vector<char> bytes =
+        read_bytes(json_file.parent_path() / content.at("data").get<std::string>());
+    if (bytes.size() != count_at(content, "data_bytes"))
+      fail(ExitCode::invalid_input, "its data has {} bytes, {} were written; is the disk full?", bytes.size(),
+           count_at(content, "data_bytes"));
+    Blob data(bytes.data(), bytes.size());
+    return parse_exchange_content(content, data);
+  });
+}
+
+std::string exchange_bytes(const Exchange& scene) {
+  std::string data;
+  std::string text = store_exchange(scene, data).dump(-1, ' ', false, json::error_handler_t::replace);
+  text.append((alignment - text.size() % alignment) % alignment, ' ');
+  Header header{{}, format_version, 0, text.size(), data.size()};
+  magic.copy(header.magic, magic.size());
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof(Header));
+  bytes += text;
+  bytes += data;
+  const std::uint64_t sum = checksum(bytes);
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
+  return bytes;
+}
+
+void write_exchange(const fs::path& file, const Exchange& scene) {
+  write_atomically(file, exchange_bytes(scene));
+}
+
+}  // namespace rnmbake

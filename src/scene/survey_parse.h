@@ -1,0 +1,15 @@
+// scene/survey_parse.h - a survey from its JSON and its binary part in memory (docs/survey-format.md).
+#pragma once
+
+#include "scene/blob.h"
+#include "scene/survey.h"
+
+namespace rnmbake {
+
+/// Checks as read_survey() does, the format's number included. Throws nlohmann's exceptions, too.
+[[nodiscard]] Survey parse_survey(const nlohmann::json& content, Blob& data);
+
+/// The 16 numbers of Blender's matrix, row by row, for column vectors. `owner`: "light 'Lamp'".
+[[nodiscard]] Mat44 read_matrix(const nlohmann::json& values, const std::string& owner);
+
+}  // namespace rnmbake
