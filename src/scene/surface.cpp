@@ -52,6 +52,7 @@ Surface make_surface(const Mesh& mesh, const std::vector<std::uint32_t>& subset,
   for (const std::uint32_t index : subset) {
     std::array<Vec3d, 3> p;
     SurfaceTriangle triangle;
+    triangle.source = index;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t corner = 3 * std::size_t(index) + k;
       p[k] = to_world_point(mesh.positions[mesh.corner_vertex(corner)], to_world);

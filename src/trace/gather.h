@@ -35,14 +35,14 @@ struct GatherTarget {
 
 struct GatherOptions {
   std::vector<BasisDirection> directions;  // right-handed, Y up, in each texel's own frame
-  int sh_order = 0;                        // 1, 2 or 3: also 1, 4 or 9 SH coefficients of the incoming radiance
+  int sh_order = 0;  // 1, 2 or 3: also 1, 4 or 9 SH coefficients of the incoming radiance
   Footprint footprint = Footprint::half;
-  int samples = 256;        // paths for each texel; with `error` the most
-  double error = 0;         // > 0: stop where the relative standard error of the target's texels (RMS over them,
-                            // over their mean) is that small
-  int bounces = -1;         // surfaces that a path may bounce off after the texel's own; -1: no limit
+  int samples = 256;  // paths for each texel; with `error` the most
+  double error = 0;   // > 0: stop where the relative standard error of the target's texels (RMS over them,
+                      // over their mean) is that small
+  int bounces = -1;   // surfaces that a path may bounce off after the texel's own; -1: no limit
   std::uint64_t seed = 0;
-  int threads = 0;  // 0: all cores
+  int threads = 0;                                 // 0: all cores
   bool light_sampling = true, chance_hits = true;  // the two ways to find light; off only to test the other
   bool reuse = true;                               // texels share the ends of their paths (trace/reuse.h)
   RecipeFaults faults;
@@ -51,8 +51,8 @@ struct GatherOptions {
 
 /// One direction of one target. Uncovered texels are 0.
 struct GatheredDirection {
-  FloatImage radiance;        // RGB, E/pi
-  FloatImage standard_error;  // RGB, of each texel
+  FloatImage radiance;                         // RGB, E/pi
+  FloatImage standard_error;                   // RGB, of each texel
   std::array<double, 3> mean{}, mean_error{};  // over the covered texels; standard error of it
 };
 
@@ -70,8 +70,8 @@ struct GatherProgress {
   std::size_t target = 0;  // at work now
 };
 
-/// Deterministic for a seed at any number of threads. `done` receives each target when it is complete, from the
-/// calling thread. `stop` is polled; when it says true, gather() returns at once.
+/// Deterministic for a seed at any number of threads. `done` receives each target when it is complete, from
+/// the calling thread. `stop` is polled; when it says true, gather() returns at once.
 void gather(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
             const std::function<void(std::size_t, Gathered&&)>& done,
             const std::function<void(const GatherProgress&)>& progress = {},

@@ -15,7 +15,7 @@ namespace rnmbake {
 
 struct Ray {
   Vec3 origin, direction;  // unit direction
-  float from = 0, to = 0;  // distances; `to` may be infinity
+  float to = 0;            // distance; may be infinity
 };
 
 struct Hit {
@@ -28,6 +28,8 @@ struct Hit {
 /// Owns the acceleration structure; the Exchange must outlive it. Thread-safe once made.
 class TraceScene {
  public:
+  /// `blender_version`: whose light units hold (trace/lights.h). Throws Error(environment) where Embree
+  /// fails.
   TraceScene(const Exchange& scene, const std::string& blender_version);
   ~TraceScene();
   TraceScene(const TraceScene&) = delete;
@@ -41,10 +43,8 @@ class TraceScene {
   [[nodiscard]] const Lights& lights() const { return lights_; }
   [[nodiscard]] const Looks& looks() const { return looks_; }
 
-  /// Interpolated at a hit.
-  [[nodiscard]] Vec3 point(const Hit& hit) const;
-  [[nodiscard]] Vec3 shading_normal(const Hit& hit) const;  // unit
-  [[nodiscard]] Vec2 uv(const Hit& hit) const;
+  /// Bytes of geometry, acceleration structure included.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   struct Accelerator;
@@ -54,5 +54,22 @@ class TraceScene {
   Lights lights_;
   std::unique_ptr<Accelerator> accelerator_;
 };
+
+/// Where a ray met a surface; both normals point to the side that it came from.
+struct Vertex {
+  Vec3 position;
+  Vec3 face, normal;  // geometric and smooth, unit
+  float gap = 0;      // rays that leave start so far off the face
+  Vec2 uv;            // of the look's pictures
+  std::uint32_t triangle = 0, look = 0;
+  bool back = false;  // met from behind
+
+  /// Where a ray in this direction starts: off the face, on the direction's side.
+  [[nodiscard]] Vec3 start(const Vec3& direction) const {
+    return position + face * (face.dot(direction) < 0 ? -gap : gap);
+  }
+};
+
+[[nodiscard]] Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit);
 
 }  // namespace rnmbake

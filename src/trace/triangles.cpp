@@ -41,8 +41,9 @@ void add_object(const Exchange& scene, std::size_t object_index, Triangles& out)
       out.normal.push_back(finite(n[k]) && n[k].length2() > 0 ? n[k] : Vec3(face / length));
       out.uv.push_back(uv[k]);
     }
-    out.look.push_back(look);
-    out.object.push_back(object_index);
+    out.look.push_back(static_cast<std::uint32_t>(look));
+    out.object.push_back(static_cast<std::uint32_t>(object_index));
+    out.source.push_back(static_cast<std::uint32_t>(t));
   }
 }
 

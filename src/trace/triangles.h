@@ -16,6 +16,7 @@ struct Triangles {
   std::vector<Vec2> uv;               // [3 x triangles] of the look's pictures; (0,0) where it has none
   std::vector<std::uint32_t> look;    // [triangles] -> Exchange::looks
   std::vector<std::uint32_t> object;  // [triangles] -> Survey::objects
+  std::vector<std::uint32_t> source;  // [triangles]: number of the mesh's triangle
 
   [[nodiscard]] std::size_t size() const { return look.size(); }
 };

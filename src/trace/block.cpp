@@ -1,0 +1,173 @@
+#include "trace/block.h"
+
+#include "basis/rnm.h"
+#include "basis/sh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace rnmbake {
+namespace {
+
+constexpr float inv_pi = static_cast<float>(1 / pi);
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Rays start this much further off than the surface is lifted: a place is mixed from corners, and rounded.
+constexpr float relative_gap = 1e-6F;
+
+float largest_coordinate(const Vec3& p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+}  // namespace
+
+BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options)
+    : scene_(scene),
+      sites_(sites),
+      options_(options),
+      path_{options.bounces, options.light_sampling, options.chance_hits},
+      directions_(options.directions.size()),
+      coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
+      here_(texels),
+      lobes_(texels),
+      normals_(texels * options.directions.size()),
+      found_(texels),
+      back_faces_(texels) {}
+
+void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::uint64_t seed,
+                          BatchTally& tally) {
+  for (std::size_t i = 0; i < block.size(); ++i) here_[i].sums = tally.texel(i);
+  for (int s = 0; s < samples; ++s) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      Sampler sampler(hash_of(seed, i), static_cast<std::uint32_t>(s));
+      set_out(i, block[i], sampler);
+      if (options_.light_sampling) sample_lamps(i, sampler);
+      shoot(i, sampler);
+    }
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (found_[i].radiance != Vec3(0)) share(i, block.size());
+    }
+  }
+  tally.end_batch(samples);
+}
+
+/// Chooses the place in the texel, and what directions to look in from there.
+void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& sampler) {
+  const Place place = sites_.place(texel, sampler.next2());
+  Here& here = here_[i];
+  here.face = place.face;
+  here.position = place.position + place.face * (relative_gap * largest_coordinate(place.position));
+  if (coefficients_ > 0) {
+    here.normal = place.normal.normalized();
+    here.tangent = (place.tangent - here.normal * place.tangent.dot(here.normal)).normalized();
+    here.bitangent = here.normal.cross(here.tangent) * place.sign;
+  }
+  Vec3* normals = &normals_[i * directions_];
+  for (std::size_t k = 0; k < directions_; ++k) {
+    const Vec3& b = options_.directions[k].direction;
+    normals[k] = (place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized();
+  }
+  const bool few = directions_ > 0 && directions_ < Lobes::most;
+  Lobes lobes(place.face, coefficients_ > 0 || !few);
+  if (few) {
+    for (std::size_t k = 0; k < directions_; ++k) lobes.add(normals[k]);
+  } else {
+    lobes.add(place.normal.normalized());
+    for (const Vec3& b : rnm_basis()) {
+      lobes.add((place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized());
+    }
+  }
+  lobes_[i] = lobes;
+}
+
+/// `light`: radiance over pdf.
+void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light) {
+  const Here& here = here_[i];
+  const Vec3* normals = &normals_[i * directions_];
+  const Vec3 over_pi = light * inv_pi;
+  for (std::size_t k = 0; k < directions_; ++k) {
+    here.sums[k] += over_pi * std::max(0.0F, direction.dot(normals[k]));
+  }
+  if (coefficients_ == 0) return;
+  const auto y =
+      sh_basis({direction.dot(here.tangent), direction.dot(here.bitangent), direction.dot(here.normal)});
+  for (std::size_t c = 0; c < coefficients_; ++c) here.sums[directions_ + c] += light * y[c];
+}
+
+void BlockGatherer::sample_lamps(std::size_t i, Sampler& sampler) {
+  const Here& here = here_[i];
+  const LightSample light = scene_.lights().sample(here.position, here.face, sampler.next3());
+  if (!(light.pdf > 0) || !(light.direction.dot(here.face) > 0)) return;
+  ++rays_;
+  if (scene_.occluded({here.position, light.direction, light.distance * short_of_light})) return;
+  const bool both = light.chance_hits && options_.chance_hits;
+  const float share = both ? balance(light.pdf, lobes_[i].pdf(light.direction)) : 1;
+  add(i, light.direction, light.radiance * (share / light.pdf));
+}
+
+/// The texel's own ray: what glows is added at once, what reflects is left in `found_`.
+void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
+  const Here& here = here_[i];
+  Found& found = found_[i];
+  found.radiance = Vec3(0);
+  const float choice = sampler.next1();
+  const Vec3 direction = lobes_[i].sample(choice, sampler.next2());
+  const float pdf = lobes_[i].pdf(direction);
+  if (!(pdf > 0)) return;
+  const auto chance_share = [&](float light_pdf) {
+    return !options_.chance_hits ? 0.0F : options_.light_sampling ? balance(pdf, light_pdf) : 1.0F;
+  };
+  const Ray ray{here.position, direction, infinity};
+  Hit hit;
+  ++rays_;
+  if (!scene_.intersect(ray, hit)) {
+    const float other = scene_.lights().world_pdf(here.position, here.face, direction);
+    add(i, direction, scene_.lights().world(direction) * (chance_share(other) / pdf));
+    return;
+  }
+  const Vertex vertex = vertex_at(scene_, ray, hit);
+  if (vertex.back) ++back_faces_[i];
+  if (scene_.looks().emits(vertex.look)) {
+    const float other =
+        scene_.lights().triangle_pdf(here.position, here.face, hit.triangle, direction, hit.distance);
+    add(i, direction, scene_.looks().emission(vertex.look, vertex.uv) * (chance_share(other) / pdf));
+  }
+  const Vec3 radiance = reflected_radiance(scene_, vertex, path_, sampler, rays_);
+  if (radiance == Vec3(0)) return;
+  if (!options_.reuse) {
+    add(i, direction, radiance / pdf);
+    return;
+  }
+  found = {vertex.position, vertex.face, vertex.position + vertex.face * vertex.gap, radiance};
+}
+
+/// Gives what texel `finder` found to every texel that sees it.
+void BlockGatherer::share(std::size_t finder, std::size_t count) {
+  const Found& found = found_[finder];
+  std::array<Vec3, texels> directions;
+  std::array<float, texels> solid_angles{};  // per area at the place; 0: not seen
+  float density = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 way = found.position - here_[i].position;
+    const float back = -way.dot(found.face);
+    if (!(back > 0) || !(way.dot(here_[i].face) > 0)) continue;
+    if (i != finder) {
+      const Vec3 path = found.target - here_[i].position;
+      const float length = path.length();
+      ++rays_;
+      if (scene_.occluded({here_[i].position, path / length, length})) continue;
+    }
+    const float distance2 = way.dot(way), distance = std::sqrt(distance2);
+    directions[i] = way / distance;
+    solid_angles[i] = back / (distance * distance2);
+    density += lobes_[i].pdf(directions[i]) * solid_angles[i];
+  }
+  if (!(density > 0) || !std::isfinite(density)) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (solid_angles[i] > 0) add(i, directions[i], found.radiance * (solid_angles[i] / density));
+  }
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,72 @@
+// trace/block.h - gathers light for a few neighbouring texels at once, which share what their rays found.
+//
+// Each texel shoots a ray, and the light that the surface it meets sends back is estimated once, by a path.
+// That light is the same in every direction, so every texel of the block that sees the place may use it: for
+// texel i and the places y_j that the block found,
+//     E_i(b) = sum_j  V_ij L(y_j) max(0, D_ij . b) G_ij / sum_k V_kj p_k(y_j),
+// the balance heuristic over the block's ways to find y_j (Bekaert, Sbert and Halton, "Accelerating Path
+// Tracing by Re-using Paths", 2002), with p_k the density per area, visibility included. It is unbiased, and
+// a shadow ray takes the place of a whole path. Emission and sky that the first rays meet, and lamps, stay
+// each texel's own.
+#pragma once
+
+#include "trace/gather.h"
+#include "trace/lobes.h"
+#include "trace/path.h"
+#include "trace/sites.h"
+#include "trace/tally.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rnmbake {
+
+class BlockGatherer {
+ public:
+  static constexpr std::size_t texels = 16;  // of a block, at most
+
+  BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options);
+
+  /// Directions, then SH coefficients.
+  [[nodiscard]] std::size_t values() const { return directions_ + coefficients_; }
+
+  /// One batch: `samples` for each texel. Another seed is an independent batch.
+  void batch(std::span<const TexelSite> block, int samples, std::uint64_t seed, BatchTally& tally);
+
+  /// Since the beginning: rays, and of each texel's first rays those that met a back face.
+  [[nodiscard]] std::int64_t rays() const { return rays_; }
+  [[nodiscard]] const std::vector<std::int64_t>& back_faces() const { return back_faces_; }
+
+ private:
+  /// What one texel has in one round.
+  struct Here {
+    Vec3 position, face;
+    Vec3 tangent, bitangent, normal;  // orthonormal: the frame of SH
+    Vec3* sums = nullptr;             // of this texel in the tally
+  };
+  struct Found {
+    Vec3 position, face, target;  // target: where rays to it end, just off the surface
+    Vec3 radiance{0, 0, 0};       // sent back; 0: nothing to share
+  };
+
+  void set_out(std::size_t i, const TexelSite& texel, Sampler& sampler);
+  void sample_lamps(std::size_t i, Sampler& sampler);
+  void shoot(std::size_t i, Sampler& sampler);
+  void share(std::size_t finder, std::size_t count);
+  void add(std::size_t i, const Vec3& direction, const Vec3& light);
+
+  const TraceScene& scene_;
+  const Sites& sites_;
+  const GatherOptions& options_;
+  PathOptions path_;
+  std::size_t directions_, coefficients_;
+  std::vector<Here> here_;
+  std::vector<Lobes> lobes_;
+  std::vector<Vec3> normals_;  // [texels][directions], world space
+  std::vector<Found> found_;
+  std::int64_t rays_ = 0;
+  std::vector<std::int64_t> back_faces_;
+};
+
+}  // namespace rnmbake

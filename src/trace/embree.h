@@ -1,0 +1,35 @@
+// trace/embree.h - the little that differs between Embree 3 and 4. Private to the trace room.
+#pragma once
+
+#if RNMBAKE_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace rnmbake {
+
+inline constexpr unsigned all_rays =
+    0xffffffff;  // the mask of geometries and rays: version 4's defaults differ
+
+inline void embree_intersect(RTCScene scene, RTCRayHit& query) {
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  rtcIntersect1(scene, &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+inline void embree_occluded(RTCScene scene, RTCRay& ray) {
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  rtcOccluded1(scene, &ray);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,82 @@
+#include "trace/sites.h"
+
+#include "scene/uv_raster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rnmbake {
+namespace {
+
+/// Interleaves bits: texels that are near each other get numbers that are near each other.
+std::uint32_t morton(std::uint32_t x, std::uint32_t y) {
+  const auto spread = [](std::uint32_t v) {
+    v = (v | (v << 8)) & 0x00ff00ffU;
+    v = (v | (v << 4)) & 0x0f0f0f0fU;
+    v = (v | (v << 2)) & 0x33333333U;
+    return (v | (v << 1)) & 0x55555555U;
+  };
+  return spread(x) | (spread(y) << 1);
+}
+
+float footprint_side(Footprint footprint) {
+  return footprint == Footprint::centre ? 0.0F : footprint == Footprint::half ? 0.5F : 1.0F;
+}
+
+/// Folds a number into [0, limit] like a strip of paper.
+float fold(float value, float limit) {
+  if (value >= 0 && value <= limit) return value;
+  if (!(limit > 0)) return 0;
+  const float turns = value / limit, whole = std::floor(turns), rest = turns - whole;
+  return (static_cast<int>(whole) & 1) != 0 ? (1 - rest) * limit : rest * limit;
+}
+
+}  // namespace
+
+Sites::Sites(const Surface& surface, int width, int height, Footprint footprint) : surface_(surface) {
+  std::vector<Vec2> uv;
+  uv.reserve(3 * surface.triangles.size());
+  for (const SurfaceTriangle& triangle : surface.triangles) {
+    for (const SurfaceCorner& corner : triangle.corners) uv.push_back(corner.uv);
+  }
+  const UvRaster raster = rasterize(uv, width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const TexelOwner& owner = raster.at(x, y);
+      if (owner.triangle < 0) continue;
+      texels_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                         static_cast<std::uint32_t>(owner.triangle), owner.b1, owner.b2});
+    }
+  }
+  std::sort(texels_.begin(), texels_.end(),
+            [](const TexelSite& a, const TexelSite& b) { return morton(a.x, a.y) < morton(b.x, b.y); });
+
+  const float side = footprint_side(footprint);
+  slopes_.resize(surface.triangles.size());
+  for (std::size_t t = 0; t < slopes_.size(); ++t) {
+    const Vec2 e1 = uv[3 * t + 1] - uv[3 * t], e2 = uv[3 * t + 2] - uv[3 * t];
+    const float area = e1.x * e2.y - e1.y * e2.x;
+    if (area == 0) continue;
+    const float du = side / static_cast<float>(width), dv = side / static_cast<float>(height);
+    slopes_[t] = {Vec2(e2.y, -e1.y) * (du / area), Vec2(-e2.x, e1.x) * (dv / area)};
+  }
+}
+
+Place Sites::place(const TexelSite& texel, const Vec2& u) const {
+  const Slope& slope = slopes_[texel.triangle];
+  const Vec2 step = slope.along_x * (u.x - 0.5F) + slope.along_y * (u.y - 0.5F);
+  const float b1 = fold(texel.b1 + step.x, 1), b2 = fold(texel.b2 + step.y, 1 - b1), b0 = 1 - b1 - b2;
+
+  const SurfaceTriangle& triangle = surface_.triangles[texel.triangle];
+  const auto& [c0, c1, c2] = triangle.corners;
+  Place place;
+  place.position = c0.position * b0 + c1.position * b1 + c2.position * b2;
+  place.face = triangle.normal;
+  place.tangent = c0.frame.tangent * b0 + c1.frame.tangent * b1 + c2.frame.tangent * b2;
+  place.bitangent = c0.frame.bitangent * b0 + c1.frame.bitangent * b1 + c2.frame.bitangent * b2;
+  place.normal = c0.frame.normal * b0 + c1.frame.normal * b1 + c2.frame.normal * b2;
+  place.sign = c0.frame.sign;
+  return place;
+}
+
+}  // namespace rnmbake
