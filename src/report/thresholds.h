@@ -15,7 +15,11 @@ namespace rnmbake {
 /// Holds every object and basis against the limits. What cannot be told (NaN) counts as exceeded.
 [[nodiscard]] ThresholdOutcome check_thresholds(const Report& report, std::vector<Threshold> thresholds);
 
-/// One line: "floor, rnm1: rmse 3.1 % is above 2 %".
-[[nodiscard]] std::string describe(const Exceeded& exceeded);
+/// "rmse 2.00 %".
+[[nodiscard]] std::string describe(const Threshold& threshold);
+
+/// One line for each object that exceeded a limit, with its worst basis: "floor: rmse 3.10 % in rnm1 is above
+/// 2.00 %; bias ...".
+[[nodiscard]] std::vector<std::string> describe(const ThresholdOutcome& outcome);
 
 }  // namespace rnmbake
