@@ -3,6 +3,7 @@
 Answers with lambert.blend: the scene as plain mesh objects under their old names, each with its own baked albedo
 and emission in place of its materials; lights and world as they were. The bake then goes on with that file.
 """
+import json
 import os
 import sys
 
@@ -11,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
-from scene_ops import lambert_bake, lambert_collect, lambert_scene  # noqa: E402
+from scene_ops import export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
 from scene_ops.load import open_scene, refuse_blocked_scripts  # noqa: E402
 
 FILE = "lambert.blend"
@@ -19,12 +20,14 @@ FILE = "lambert.blend"
 
 def main(task):
     warnings = open_scene(task)
+    export_notes.remember_camera(bpy.context.scene)
     task.progress("evaluate")
     shown = lambert_collect.collect()
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
     lambert_scene.rebuild(shown)
     warnings += shown.warnings + lambert_bake.replace_materials(task, shown.surfaces)
     lambert_scene.drop_originals(shown)
+    bpy.context.scene[export_notes.OUTSIDE] = json.dumps(shown.outside)
     # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
     bpy.ops.wm.save_as_mainfile(filepath=task.path(FILE), copy=True, relative_remap=True, check_existing=False)
     return {"blend": FILE, "warnings": warnings}

@@ -36,6 +36,7 @@ class Shown:
 class Scene:
     def __init__(self):
         self.surfaces, self.lights, self.kept, self.warnings = [], [], [], []
+        self.outside = []  # OutsideModel of scene/exchange.h, of what has no surface
 
 
 def plain(value):
@@ -101,10 +102,12 @@ def _add_other(instance, scene):
         scene.lights.append(light)
     elif ob.type in KEPT_TYPES and not instance.is_instance:
         scene.kept.append(ob.original)
+        scene.outside.append({"owner": f"object '{ob.original.name}'", "what": [ob.type.lower()]})
         scene.warnings.append(f"{ob.original.name}: {ob.type.lower()} keeps its material; only surfaces become "
                               "lambert")
     if not instance.is_instance and any(system.settings.type == "HAIR" and system.settings.render_type == "PATH"
                                         for system in ob.particle_systems):
+        scene.outside.append({"owner": f"object '{ob.original.name}'", "what": ["hair"]})
         scene.warnings.append(f"{ob.original.name}: its hair is left out with --materials lambert")
 
 

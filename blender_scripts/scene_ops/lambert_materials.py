@@ -3,6 +3,7 @@ import bpy
 
 from scene_ops.describe import describe_material
 from scene_ops.describe_nodes import active_output, reachable_nodes
+from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
 
 # Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
@@ -32,6 +33,7 @@ class Source:
         about = describe_material(material) if material else {"emissive": False, "outside_model": []}
         self.emissive = about["emissive"]
         self.opaque_now = [what for what in about["outside_model"] if what in OPAQUE_NOW]
+        self.notes = MaterialNotes(material)
         self.bakeable, self._texture = make_bakeable(material)
         self.plain = None
 
@@ -133,5 +135,6 @@ def stand_in(source, color, emission):
     """The lambert material for a source, which keeps its name for those who ask (--split material)."""
     material = bpy.data.materials.new(source.name or "rnmbake empty slot")
     material[LABEL_PROPERTY] = source.name
+    source.notes.write_to(material)
     make_lambert(material, color, emission)
     return material

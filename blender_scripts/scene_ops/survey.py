@@ -86,6 +86,9 @@ class Surveyor:
                 self.lights.append(describe_light(instance.object, instance.matrix_world))
         for instance in shown_surfaces(depsgraph):
             self.add_surface(instance, instance.object, override)
+
+    def finish(self):
+        """After the visit; the file is complete then."""
         self.meshes.close()
 
     def add_surface(self, instance, ob, override):
@@ -118,10 +121,11 @@ def material_name(material):
     return material.original.get(LABEL_PROPERTY, material.original.name_full) if material else ""
 
 
-def survey_scene(task):
-    surveyor = Surveyor(task)
+def survey_scene(task, surveyor=None):
+    surveyor = surveyor or Surveyor(task)
     scene = bpy.context.scene
     with_render_depsgraph(surveyor.visit)
+    surveyor.finish()
     wanted = [material for material in bpy.data.materials if material_name(material) in surveyor.material_names]
     return {
         "format": FORMAT,

@@ -44,7 +44,7 @@ class MeshFile:
             "polygon_start": self._write(mesh.polygons, "loop_start", "i"),
             "polygon_size": self._write(mesh.polygons, "loop_total", "i"),
             "polygon_slot": self._write(mesh.polygons, "material_index", "i"),
-            "uv_layers": [{"name": layer.name, "offset": self._write_uv(layer)} for layer in uv_layers],
+            "uv_layers": [{"name": layer.name, "offset": self.write_uv(layer)} for layer in uv_layers],
             "active_uv": mesh.uv_layers.active_index if uv_layers else -1,
             "render_uv": next((i for i, layer in enumerate(uv_layers) if layer.active_render), -1),
         })
@@ -54,6 +54,10 @@ class MeshFile:
         values = array(kind, bytes(len(collection) * components * WIDTH))
         if values:
             collection.foreach_get(attribute, values)
+        return self.append(values)
+
+    def append(self, values):
+        """Append an array of numbers; returns its offset in bytes."""
         offset = self.bytes_written
         values.tofile(self._stream)
         self.bytes_written += len(values) * WIDTH
@@ -64,7 +68,7 @@ class MeshFile:
             return self._write(mesh.corner_normals, "vector", "f", 3)
         return self._write(mesh.loops, "normal", "f", 3)
 
-    def _write_uv(self, layer):
+    def write_uv(self, layer):
         if hasattr(layer, "uv"):  # >= 3.5
             return self._write(layer.uv, "vector", "f", 2)
         return self._write(layer.data, "uv", "f", 2)

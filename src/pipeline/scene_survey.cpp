@@ -21,16 +21,15 @@ Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, c
   return launch;
 }
 
-/// A .blend in which every surface shows its own baked albedo and emission through a plain diffuse material.
+}  // namespace
+
 fs::path make_lambert_scene(Workspace& workspace, const fs::path& scene) {
-  log::info("baking albedo and emission for --materials lambert");
+  log::info("baking albedo and emission of every material");
   const Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", scene);
   const nlohmann::json answer = workspace.run(launch);
   for (const auto& warning : answer.at("warnings")) log::warn("{}", warning.get<std::string>());
   return launch.folder / answer.at("blend").get<std::string>();
 }
-
-}  // namespace
 
 nlohmann::json scene_request(const Workspace& workspace, const fs::path& blend) {
   return {{"scene", fs::absolute(blend).string()},

@@ -18,6 +18,11 @@ struct SurveyedScene {
 /// Throws Error(invalid_input) where there is nothing with faces.
 [[nodiscard]] SurveyedScene survey_scene(Workspace& workspace);
 
+/// A .blend in which every surface shows its own baked albedo and emission through a plain diffuse material.
+/// Logs what is lost with the user's materials.
+[[nodiscard]] std::filesystem::path make_lambert_scene(Workspace& workspace,
+                                                       const std::filesystem::path& scene);
+
 /// The part of every request that says which scene it is about.
 [[nodiscard]] nlohmann::json scene_request(const Workspace& workspace, const std::filesystem::path& blend);
 

@@ -1,0 +1,26 @@
+"""Blender runs this on the file that lambert_entry.py made: survey.json with the key "exchange", and survey.bin.
+
+docs/rnmscene-format.md says what "exchange" holds.
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from core.task import run  # noqa: E402
+from scene_ops.export_survey import ExportSurveyor  # noqa: E402
+from scene_ops.load import open_scene  # noqa: E402
+from scene_ops.survey import survey_scene, write_survey  # noqa: E402
+
+
+def main(task):
+    warnings = open_scene(task)
+    task.progress("evaluate")
+    surveyor = ExportSurveyor(task)
+    survey = survey_scene(task, surveyor)
+    survey["warnings"] = warnings + survey["warnings"]
+    survey["exchange"] = surveyor.exchange
+    return {"survey": write_survey(task, survey)}
+
+
+run(main)

@@ -1,0 +1,66 @@
+"""A survey of a lambert scene with all that a tracer needs beside it: the key "exchange" of survey.json."""
+import json
+
+import bpy
+
+from scene_ops import export_world
+from scene_ops.export_looks import Looks, outside_of
+from scene_ops.export_notes import CAMERA, OUTSIDE
+from scene_ops.survey import Surveyor
+
+
+class ExportSurveyor(Surveyor):
+    def __init__(self, task):
+        super().__init__(task)
+        self.looks = Looks(self.meshes)
+        self.object_looks, self.unlit, self.outside = [], [], []
+        self._lights_off = []
+
+    def visit(self, depsgraph):
+        for instance in depsgraph.object_instances:
+            if instance.show_self and instance.object.type == "LIGHT":
+                self._lights_off.append(not instance.object.visible_diffuse)
+        super().visit(depsgraph)
+
+    def add_surface(self, instance, ob, override):
+        super().add_surface(instance, ob, override)
+        entry = self.objects[-1]
+        materials = [slot.material.original for slot in ob.material_slots]
+        self.object_looks.append([self.looks.add(material, ob.data, entry["mesh"]) for material in materials])
+        what = {word for material in materials for word in outside_of(material)}
+        if not ob.visible_diffuse and not ob.visible_shadow:
+            self.unlit.append(len(self.objects) - 1)
+        elif not ob.visible_diffuse:
+            what.add("hidden from diffuse rays")
+        elif not ob.visible_shadow:
+            what.add("casts no shadow")
+        what.update(word for flag, word in (("is_holdout", "holdout"), ("is_shadow_catcher", "shadow catcher"))
+                    if getattr(ob, flag, False))
+        if entry["light_group"]:
+            what.add("light linking")
+        self.tell(f"object '{entry['key']}'", what)
+
+    def tell(self, owner, what):
+        if what:
+            self.outside.append({"owner": owner, "what": sorted(what)})
+
+    def finish(self):
+        """What must not happen while the survey renders; then the file is complete."""
+        scene = bpy.context.scene
+        for light, off in zip(self.lights, self._lights_off):
+            what = set(light["outside_model"]) | ({"hidden from diffuse rays, left out"} if off else set())
+            self.tell(f"light '{light['name']}'", what)
+        self.lights = [light for light, off in zip(self.lights, self._lights_off) if not off]
+        pictures = self.looks.write_pictures()
+        world, picture, what = export_world.describe(self.task, scene, self.meshes)
+        if picture:
+            world["picture"] = len(pictures)
+            pictures.append(picture)
+        self.tell("world", what)
+        self.outside += json.loads(scene.get(OUTSIDE, "[]"))
+        self.exchange = {
+            "pictures": pictures, "picture_uvs": self.looks.picture_uvs, "normal_maps": self.looks.normal_maps,
+            "looks": self.looks.looks, "object_looks": self.object_looks, "unlit": self.unlit, "world": world,
+            "camera": json.loads(scene.get(CAMERA, "null")), "outside": self.outside,
+        }
+        super().finish()
