@@ -1,0 +1,16 @@
+// trace/light_units.h - what the numbers of Blender's lamps mean in the version that bakes.
+#pragma once
+
+#include "scene/survey.h"
+#include "trace/light_lamp.h"
+
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// The lamps that give light, in the survey's order, each in the units of that Blender ("3.4.1"):
+/// measured against bakes of each (docs/reference.md). Lamps that are invisible to diffuse rays give none.
+[[nodiscard]] std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_version);
+
+}  // namespace rnmbake
