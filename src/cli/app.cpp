@@ -7,6 +7,7 @@
 #include "cli/bake.h"
 #include "cli/decode.h"
 #include "cli/doctor.h"
+#include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
 #include "pipeline/workspace.h"
@@ -54,6 +55,11 @@ constexpr const char* about_inspect =
     "\n\nSays what `rnmbake bake` with the same settings would bake and at which size, and what in the\n"
     "scene would get in its way; nothing is baked or written.";
 
+constexpr const char* about_export =
+    "\n\nAlbedo and emission of every surface as Cycles shows them, lights, world, camera and the lightmap\n"
+    "UVs, in one .rnmscene file; nothing of the scene is changed. What the reference cannot follow is listed\n"
+    "object by object. --output names the file, or a folder for SCENE.rnmscene.";
+
 struct Command {
   const char* name;
   std::function<int()> (*add)(CLI::App&);
@@ -64,6 +70,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> all{
       {"bake", add_bake_command, about_bake},
       {"inspect", add_inspect_command, about_inspect},
+      {"export", add_export_command, about_export},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
   };

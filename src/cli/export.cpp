@@ -1,0 +1,134 @@
+#include "cli/export.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "cli/settings_flags.h"
+#include "pipeline/export_scene.h"
+#include "pipeline/late_blender.h"
+#include "process/stop.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct ExportFlags {
+  explicit ExportFlags(CLI::App& command) : settings(command) {
+    command.add_flag("--json", as_json, "say what was written as one JSON object");
+  }
+  SettingsFlags settings;
+  bool as_json = false;
+};
+
+/// The file itself, or one named after the scene in a folder.
+fs::path choose_file(const BakeSettings& settings) {
+  const fs::path& given = settings.output.dir;
+  if (given.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o FILE.rnmscene, or a folder");
+  if (is_exchange(given)) return given;
+  return given / settings.scene.file.stem().concat(exchange_ending);
+}
+
+std::size_t triangles_of(const Survey& survey) {
+  std::size_t sum = 0;
+  for (const SceneObject& object : survey.objects) sum += survey.mesh_of(object).triangles();
+  return sum;
+}
+
+std::string world_text(const Exchange& scene) {
+  const World& world = scene.world;
+  if (world.picture < 0)
+    return fmt::format("({:g}, {:g}, {:g})", world.radiance.x, world.radiance.y, world.radiance.z);
+  const Picture& picture = scene.pictures[static_cast<std::size_t>(world.picture)];
+  return fmt::format("{} x {} texels", picture.width, picture.height);
+}
+
+std::size_t unwrapped(const TargetList& list) {
+  return static_cast<std::size_t>(std::count_if(list.targets.begin(), list.targets.end(),
+                                                [](const Target& target) { return target.unwrapped; }));
+}
+
+void write_text(const ExportedScene& exported, const fs::path& file, std::ostream& out) {
+  const Exchange& scene = exported.exchange;
+  const Survey& survey = scene.survey;
+  const auto line = [&](const char* what, const std::string& said) {
+    out << fmt::format("{:<10}{}\n", what, said);
+  };
+  line("file", fmt::format("{} ({:.1f} MB)", file.string(), double(fs::file_size(file)) / 1e6));
+  line("objects",
+       fmt::format("{}, {} triangles; {} would get lightmaps, {} of them unwrapped", survey.objects.size(),
+                   triangles_of(survey), exported.list.targets.size(), unwrapped(exported.list)));
+  line("looks", fmt::format("{}, {} pictures, {} normal maps", scene.looks.size(), scene.pictures.size(),
+                            scene.normal_maps.size()));
+  line("lights", fmt::format("{}", survey.lights.size()));
+  line("world", world_text(scene));
+  line("camera", scene.camera ? scene.camera->name : "none");
+  if (scene.outside.empty()) return;
+  out << "\nOutside the reference's model:\n";
+  for (const OutsideModel& outside : scene.outside)
+    out << fmt::format("  {}: {}\n", outside.owner, fmt::join(outside.what, ", "));
+}
+
+json as_json(const ExportedScene& exported, const fs::path& file) {
+  const Exchange& scene = exported.exchange;
+  const Vec3& radiance = scene.world.radiance;
+  json result{
+      {"schema_version", 1},
+      {"file", file.string()},
+      {"bytes", fs::file_size(file)},
+      {"blender", scene.survey.blender_version},
+      {"objects", scene.survey.objects.size()},
+      {"triangles", triangles_of(scene.survey)},
+      {"lightmaps", exported.list.targets.size()},
+      {"unwrapped", unwrapped(exported.list)},
+      {"looks", scene.looks.size()},
+      {"pictures", scene.pictures.size()},
+      {"normal_maps", scene.normal_maps.size()},
+      {"lights", scene.survey.lights.size()},
+      {"world", {{"radiance", {radiance.x, radiance.y, radiance.z}}, {"picture", scene.world.picture >= 0}}},
+      {"camera", scene.camera ? json(scene.camera->name) : json()},
+      {"outside_model", json::array()}};
+  for (const OutsideModel& outside : scene.outside)
+    result["outside_model"].push_back({{"owner", outside.owner}, {"what", outside.what}});
+  return result;
+}
+
+void export_to_file(const ResolvedConfig& config, bool json_wanted, std::ostream& out) {
+  const fs::path file = choose_file(config.globals);
+  if (file.has_parent_path()) make_folders(file.parent_path());
+  AtomicFile(file).write(" ");  // never committed: finds out now that nothing can be written there
+  LateBlender blender(config.globals);
+  Workspace workspace(config, blender);
+  const ExportedScene exported = export_scene(workspace);
+  write_exchange(file, exported.exchange);
+  if (json_wanted) {
+    out << as_json(exported, file).dump(2) << '\n';
+  } else {
+    write_text(exported, file, out);
+  }
+}
+
+}  // namespace
+
+std::function<int()> add_export_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("export", "write a scene as the reference tracer sees it into one file");
+  const auto flags = std::make_shared<ExportFlags>(*command);
+  return [flags] {
+    const auto config = flags->settings.resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    export_to_file(*config, flags->as_json, std::cout);
+    return static_cast<int>(ExitCode::ok);
+  };
+}
+
+}  // namespace rnmbake
