@@ -14,7 +14,11 @@ namespace rnmbake {
 class BatchTally {
  public:
   BatchTally(std::size_t texels, std::size_t values)
-      : texels_(texels), values_(values), batch_(texels * values), state_(texels * values), whole_(values) {}
+      : texels_(texels),
+        values_(values),
+        batch_(texels * values, Vec3(0)),
+        state_(texels * values),
+        whole_(values) {}
 
   /// Where the samples of the present batch are added up.
   [[nodiscard]] Vec3* texel(std::size_t index) { return &batch_[index * values_]; }

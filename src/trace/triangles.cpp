@@ -25,7 +25,7 @@ void add_object(const Exchange& scene, std::size_t object_index, Triangles& out)
     Vec3 p[3], n[3];
     Vec2 uv[3];
     for (int k = 0; k < 3; ++k) {
-      const std::size_t corner = 3 * t + (mirrored ? 2 - k : k);
+      const std::size_t corner = 3 * t + (mirrored && k > 0 ? 3 - k : k);  // as in a Surface
       const std::uint32_t loop = mesh.triangle_loops[corner];
       p[k] = Vec3(Vec3d(mesh.positions[mesh.loop_vertex[loop]]) * object.to_world);
       Vec3d normal;

@@ -1,0 +1,258 @@
+#include "trace/gather.h"
+
+#include "trace/trace_scenes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
+
+GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
+  GatherOptions options;
+  options.directions = flat_and_rnm();
+  options.samples = samples;
+  options.seed = seed;
+  options.footprint = Footprint::full;
+  return options;
+}
+
+/// Distance from the truth in standard errors, one for each direction (green channel, mean of the map).
+std::vector<double> deviations(const Gathered& gathered, const std::vector<double>& truth) {
+  std::vector<double> z;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const GatheredDirection& it = gathered.directions[k];
+    z.push_back((it.mean[1] - truth[k]) / it.mean_error[1]);
+  }
+  return z;
+}
+
+class Moments {
+ public:
+  void add(double value) {
+    ++count_;
+    sum_ += value;
+    squares_ += value * value;
+  }
+  [[nodiscard]] double mean() const { return sum_ / count_; }
+  [[nodiscard]] double spread() const {
+    return std::sqrt(std::max(0.0, squares_ / count_ - mean() * mean()) * count_ / (count_ - 1));
+  }
+  [[nodiscard]] double error() const { return spread() / std::sqrt(count_); }
+
+ private:
+  double count_ = 0, sum_ = 0, squares_ = 0;
+};
+
+/// The relative error, mean over the directions and seeds, must be within 3.5 of its standard errors, and
+/// these at most 0.03 %, so that a bias of 0.1 % fails; each direction must be within 4 of its own; and the
+/// errors that each run states must be those that the seeds show.
+void expect_unbiased(const Exchange& scene, std::size_t object, const GatherOptions& base,
+                     const std::vector<double>& truth, int seeds = 12, int side = 8) {
+  const std::size_t count = truth.size();
+  std::vector<Moments> each(count);
+  std::vector<double> stated(count);
+  Moments all;
+  for (int seed = 0; seed < seeds; ++seed) {
+    GatherOptions options = base;
+    options.seed = static_cast<std::uint64_t>(seed);
+    const Gathered gathered = gather_one(scene, object, options, side, side);
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double off = gathered.directions[k].mean[1] / truth[k] - 1;
+      each[k].add(off);
+      stated[k] += std::pow(gathered.directions[k].mean_error[1] / truth[k], 2);
+      sum += off;
+    }
+    all.add(sum / double(count));
+  }
+  EXPECT_LT(all.error(), 3e-4) << "the test is too weak";
+  EXPECT_LT(std::abs(all.mean()), 3.5 * all.error() + 1e-5);
+  for (std::size_t k = 0; k < count; ++k) {
+    SCOPED_TRACE(base.directions[k].name);
+    EXPECT_LT(std::abs(each[k].mean()), 4 * each[k].error() + 1e-5);
+    if (each[k].spread() < 1e-5) continue;  // no noise
+    const double ratio = std::sqrt(stated[k] / seeds) / each[k].spread();
+    EXPECT_GT(ratio, 0.5) << "stated errors are too small";
+    EXPECT_LT(ratio, 2) << "stated errors are too large";
+  }
+}
+
+Exchange furnace(float half = 1, const Vec3& middle = Vec3(0), float emission = 1, float albedo = 0.5F) {
+  Exchange scene;
+  add_object(scene, "room", room(half, middle), Vec3(albedo), Vec3(emission));
+  return scene;
+}
+
+TEST(Gather, UniformSkyGivesEveryTexelItsShare) {
+  Exchange scene;
+  add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+  scene.world.radiance = Vec3(1);
+  expect_unbiased(scene, 0, all_directions(2048), {1, sky_share, sky_share, sky_share});
+}
+
+/// Radiance 2 everywhere.
+const std::vector<double> furnace_truth{2, 2 * sky_share, 2 * sky_share, 2 * sky_share};
+
+TEST(Gather, Furnace) {
+  expect_unbiased(furnace(), 0, all_directions(2048), furnace_truth);
+}
+
+TEST(Gather, FurnaceWithoutSharing) {
+  GatherOptions options = all_directions(2048);
+  options.reuse = false;
+  expect_unbiased(furnace(), 0, options, furnace_truth);
+}
+
+TEST(Gather, FurnaceByChanceAlone) {
+  GatherOptions options = all_directions(2048);
+  options.light_sampling = false;
+  expect_unbiased(furnace(), 0, options, furnace_truth);
+}
+
+TEST(Gather, FurnaceOfHighAlbedoLosesNoEnergy) {
+  expect_unbiased(furnace(1, Vec3(0), 0.1F, 0.95F), 0, all_directions(2048), furnace_truth, 8);
+}
+
+TEST(Gather, LightSamplingAloneAgrees) {
+  Exchange scene;  // a lamp that is not too near: light sampling alone has infinite variance in the furnace's
+                   // corners
+  add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+  add_object(scene, "lamp", {level(1, 1, false)}, Vec3(0), Vec3(1));
+  GatherOptions options = all_directions(64);
+  options.footprint = Footprint::centre;
+  const Gathered both = gather_one(scene, 0, options, 5, 5);
+  options.chance_hits = false;
+  options.samples = 1024;
+  const Gathered sampled = gather_one(scene, 0, options, 5, 5);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& a = both.directions[k];
+    const auto& b = sampled.directions[k];
+    EXPECT_LT(std::abs(a.mean[0] - b.mean[0]), 4 * std::hypot(a.mean_error[0], b.mean_error[0]));
+  }
+}
+
+TEST(Gather, SquareLampMatchesLambertsPolygonFormula) {
+  Exchange scene;  // the middle texel of 5 x 5 lies under the middle of the lamp
+  add_object(scene, "floor", {level(0.05F, 0)}, Vec3(0));
+  add_object(scene, "lamp", {level(1, 1, false)}, Vec3(0), Vec3(1));
+  GatherOptions options = all_directions(1 << 16);
+  options.footprint = Footprint::centre;
+  const Gathered gathered = gather_one(scene, 0, options, 5, 5);
+  const std::vector<double> truth{1.74083950 / pi, 1.02119225 / pi, 1.02492043 / pi, 1.02492043 / pi};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double value = gathered.directions[k].radiance.texel(2, 2)[0];
+    const double error = gathered.directions[k].standard_error.texel(2, 2)[0];
+    EXPECT_LT(error, 3e-3 * truth[k]);
+    EXPECT_LT(std::abs(value - truth[k]), 4 * error + 1e-5) << k;
+  }
+}
+
+TEST(Gather, FurnaceFarFromTheOriginAndTiny) {
+  expect_unbiased(furnace(1, Vec3(1000, -700, 300)), 0, all_directions(2048), furnace_truth);
+  expect_unbiased(furnace(0.01F, Vec3(0.3F, 0, 0)), 0, all_directions(2048), furnace_truth);
+}
+
+TEST(Gather, NoLightGivesExactZeros) {
+  Exchange scene;
+  add_object(scene, "room", room(1), Vec3(0.8F));
+  const Gathered gathered = gather_one(scene, 0, all_directions(8));
+  for (const GatheredDirection& direction : gathered.directions) {
+    for (const float value : direction.radiance.data()) EXPECT_EQ(value, 0);
+    for (const float value : direction.standard_error.data()) EXPECT_EQ(value, 0);
+  }
+}
+
+TEST(Gather, LampInAClosedBoxStaysInside) {
+  Exchange scene;
+  add_object(scene, "floor", {level(2, 0)}, Vec3(0.8F));
+  add_object(scene, "box", room(0.5F, Vec3(0, 0, 1)), Vec3(0.8F));
+  LightInfo lamp = light("POINT", 100, {{"shadow_soft_size", 0.1}});
+  lamp.to_world[3][2] = 1;
+  scene.survey.lights.push_back(lamp);
+  const Gathered outside = gather_one(scene, 0, all_directions(64));
+  for (const float value : outside.directions[0].radiance.data()) EXPECT_EQ(value, 0);
+  EXPECT_GT(gather_one(scene, 1, all_directions(16)).directions[0].mean[0], 0.1);
+}
+
+TEST(Gather, IsTheSameForASeedAtAnyNumberOfThreads) {
+  GatherOptions options = all_directions(8, 7);
+  options.threads = 1;
+  const Gathered one = gather_one(furnace(), 0, options);
+  options.threads = 2;
+  const Gathered two = gather_one(furnace(), 0, options);
+  options.seed = 8;
+  const Gathered other = gather_one(furnace(), 0, options);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(one.directions[k].radiance.data(), two.directions[k].radiance.data());
+    EXPECT_EQ(one.directions[k].standard_error.data(), two.directions[k].standard_error.data());
+    EXPECT_NE(one.directions[k].radiance.data(), other.directions[k].radiance.data());
+  }
+}
+
+TEST(Gather, BouncesCountSurfacesAfterTheTexelsOwn) {
+  for (const int bounces : {0, 1, 2}) {
+    GatherOptions options = all_directions(2048);
+    options.bounces = bounces;
+    double truth = 0;  // e (1 + r + r^2 + ...), the last for light that bounced so often
+    for (int i = 0; i <= bounces; ++i) truth += std::pow(0.5, i);
+    expect_unbiased(furnace(), 0, options, {truth, truth * sky_share, truth * sky_share, truth * sky_share});
+  }
+}
+
+TEST(Gather, ErrorAskedForIsReachedAndTrue) {
+  const Exchange scene = furnace();
+  GatherOptions options = all_directions(1 << 16);
+  options.error = 0.03;
+  int inside = 0;
+  std::int64_t paths = 0;
+  const int seeds = 100;
+  for (int seed = 0; seed < seeds; ++seed) {
+    options.seed = static_cast<std::uint64_t>(seed);
+    const Gathered gathered = gather_one(scene, 0, options, 12, 2);
+    double worst = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const GatheredDirection& it = gathered.directions[k];
+      double squares = 0;
+      for (const float error : it.standard_error.data()) squares += double(error) * error;
+      worst = std::max(worst, std::sqrt(squares / double(it.standard_error.data().size())) / it.mean[0]);
+    }
+    EXPECT_LE(worst, 0.03);
+    inside += std::abs(deviations(gathered, furnace_truth)[0]) < 1.96 ? 1 : 0;
+    paths += gathered.paths;
+  }
+  EXPECT_GE(inside, 90);
+  EXPECT_LE(inside, 99);
+  EXPECT_LT(paths / seeds, std::int64_t{24} << 16) << "it took all samples it was allowed";
+}
+
+TEST(Gather, ValidityFindsTexelsBehindWalls) {
+  Exchange scene;
+  add_object(scene, "floor", {level(2, 0)}, Vec3(0.8F));
+  std::vector<Quad> outside;  // a box on the floor that faces outwards: its inside shows back faces
+  for (Quad quad : room(1, Vec3(0, 0, 0.5F))) outside.push_back({quad[3], quad[2], quad[1], quad[0]});
+  add_object(scene, "box", outside, Vec3(0.8F));
+  const Gathered gathered = gather_one(scene, 0, all_directions(16));
+  EXPECT_EQ(gathered.validity.texel(4, 4)[0], 0);
+  EXPECT_EQ(gathered.validity.texel(0, 0)[0], 1);
+  EXPECT_EQ(gathered.coverage.texel(0, 0)[0], 1);
+}
+
+TEST(Gather, ShOfAUniformSky) {
+  Exchange scene;
+  add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+  scene.world.radiance = Vec3(1);
+  GatherOptions options = all_directions(1 << 14);
+  options.sh_order = 3;
+  const Gathered gathered = gather_one(scene, 0, options, 4, 4);
+  ASSERT_EQ(gathered.sh.size(), 9U);
+  // Integrals of Y over the upper hemisphere.
+  const std::array<double, 9> truth{std::sqrt(pi), 0, std::sqrt(3 * pi) / 2, 0, 0, 0, 0, 0, 0};
+  for (std::size_t c = 0; c < 9; ++c) EXPECT_NEAR(gathered.sh[c].texel(1, 2)[1], truth[c], 0.01) << c;
+}
+
+}  // namespace
+}  // namespace rnmbake
