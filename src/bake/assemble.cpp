@@ -189,6 +189,10 @@ bool any_covered(const FloatImage& coverage) {
 
 }  // namespace
 
+void fill_frames(const Surface& surface, TargetBakes& bakes) {
+  fill_frames(TexelGeometry(surface, bakes.coverage.width(), bakes.coverage.height()), bakes);
+}
+
 bool needs_surface(const std::vector<const Tile*>& tiles) {
   return std::any_of(tiles.begin(), tiles.end(),
                      [](const Tile* tile) { return tile->sheet.role != Sheet::Role::basis; });

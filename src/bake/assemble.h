@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bake/plan.h"
-#include "scene/surface.h"
 #include "image/bakes.h"
+#include "scene/surface.h"
 
 #include <vector>
 
@@ -17,6 +17,9 @@ namespace rnmbake {
                                    const std::vector<FloatImage>& pictures,
                                    const std::vector<BasisDirection>& bases, const Surface* surface,
                                    bool frames);
+
+/// Fills `tangent` and `normal` of bakes whose coverage has its size.
+void fill_frames(const Surface& surface, TargetBakes& bakes);
 
 /// True where a target has tiles that only the identity can put together.
 [[nodiscard]] bool needs_surface(const std::vector<const Tile*>& tiles);

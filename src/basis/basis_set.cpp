@@ -31,11 +31,17 @@ void check_name(const BasisSet& set, std::size_t at) {
          "{}: basis name '{}' cannot be used in file and layer names; use 1 to 64 of a-z A-Z 0-9 _ -",
          set.name, name);
   }
-  for (const char* reserved : {"coverage", "tangent", "normal"}) {
+  for (const char* reserved : {"coverage", "tangent", "normal", "validity"}) {
     if (lower(name) == reserved) {
       fail(ExitCode::invalid_input,
            "{}: basis name '{}' is taken by a layer of every lightmap; choose another", set.name, name);
     }
+  }
+  const bool is_harmonic =
+      name.size() == 3 && lower(name).starts_with("sh") && name[2] >= '0' && name[2] <= '8';
+  if (is_harmonic || lower(name).ends_with("_stderr")) {
+    fail(ExitCode::invalid_input, "{}: basis name '{}' is taken by a layer of references; choose another",
+         set.name, name);
   }
   // Files of two names that differ only in case would overwrite each other on some systems.
   for (std::size_t other = 0; other < at; ++other) {

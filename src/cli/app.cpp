@@ -10,6 +10,7 @@
 #include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
+#include "cli/reference.h"
 #include "pipeline/workspace.h"
 
 #include <algorithm>
@@ -57,8 +58,15 @@ constexpr const char* about_inspect =
 
 constexpr const char* about_export =
     "\n\nAlbedo and emission of every surface as Cycles shows them, lights, world, camera and the lightmap\n"
-    "UVs, in one .rnmscene file; nothing of the scene is changed. What the reference cannot follow is listed\n"
+    "UVs, in one .rnmscene file; nothing of the scene is changed. What the reference cannot follow is "
+    "listed\n"
     "object by object. --output names the file, or a folder for SCENE.rnmscene.";
+
+constexpr const char* about_reference =
+    "\n\nTraces the light itself, without Blender's Cycles: a diffuse path tracer that gives all directions\n"
+    "in one pass, without bias and with the standard error of every texel. What it traces is the scene that\n"
+    "`bake --materials lambert` bakes; files, names and layers are those of a bake, so every tool takes\n"
+    "either. A .rnmscene made by `rnmbake export` needs no Blender.";
 
 struct Command {
   const char* name;
@@ -71,6 +79,7 @@ const std::vector<Command>& commands() {
       {"bake", add_bake_command, about_bake},
       {"inspect", add_inspect_command, about_inspect},
       {"export", add_export_command, about_export},
+      {"reference", add_reference_command, about_reference},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
   };

@@ -6,6 +6,7 @@
 #include "cli/settings_flags.h"
 #include "pipeline/bake_run.h"
 #include "pipeline/late_blender.h"
+#include "pipeline/scene_survey.h"
 #include "process/stop.h"
 
 #include <memory>
@@ -35,7 +36,8 @@ int bake(const ResolvedConfig& config) {
   prepare_output(config.globals.output);
   const SurveyedScene scene = survey_scene(workspace);
   const TargetList list = make_targets(workspace, scene.survey);
-  return report(run_bake(workspace, scene, list, bases), config.globals.output);
+  return report(run_bake(workspace, {scene.survey, list, bases, scene.blend, scene.own}),
+                config.globals.output);
 }
 
 }  // namespace

@@ -63,11 +63,14 @@ std::string joined(const std::vector<std::string>& parts) {
 
 }  // namespace
 
-SettingsFlags::SettingsFlags(CLI::App& command) {
+SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose) : purpose_(purpose) {
   command.footer(fmt::format(epilogue, command.get_name()));
-  const std::string help = "scene (.blend, .glb, .gltf) or project file (.toml)";
+  const std::string help = fmt::format("scene (.blend, .glb, .gltf{}) or project file (.toml)",
+                                       purpose == Purpose::reference ? ", .rnmscene" : "");
   scene_ = command.add_option("SCENE", help);
-  for (const Setting& setting : settings()) add(command, setting);
+  for (const Setting& setting : settings()) {
+    if (setting.serves(purpose)) add(command, setting);
+  }
   print_config_ = command.add_flag("--print-config");
   print_config_->description("show every setting with where its value comes from, and end");
   print_reference_ = command.add_flag("--print-settings-doc")->group("");  // for docs/project-file.md
@@ -121,10 +124,10 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
   }
   ResolvedConfig config = rnmbake::resolve(project, read_environment(process_environment()), flags);
   if (print_config_->count() > 0) {
-    out << print_config(config);
+    out << print_config(config, purpose_);
     return std::nullopt;
   }
-  require_scene(config);
+  require_scene(config, purpose_);
   return config;
 }
 

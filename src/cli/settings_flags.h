@@ -15,11 +15,11 @@ class Option;
 
 namespace rnmbake {
 
-/// Adds the argument SCENE, a flag for each setting (grouped by table) and --print-config.
+/// Adds the argument SCENE, a flag for each setting of that purpose (grouped by table) and --print-config.
 /// Must live as long as `command`.
 class SettingsFlags {
  public:
-  explicit SettingsFlags(CLI::App& command);
+  explicit SettingsFlags(CLI::App& command, Purpose purpose = Purpose::bake);
   SettingsFlags(const SettingsFlags&) = delete;
   SettingsFlags& operator=(const SettingsFlags&) = delete;
 
@@ -33,6 +33,7 @@ class SettingsFlags {
   void add(CLI::App& command, const Setting& setting);
   [[nodiscard]] std::vector<Given> given_flags() const;
 
+  Purpose purpose_;
   std::vector<std::pair<const Setting*, CLI::Option*>> options_;
   CLI::Option* scene_ = nullptr;
   CLI::Option* print_config_ = nullptr;

@@ -59,6 +59,19 @@ struct BakingSettings {
   Device device = Device::cpu;
 };
 
+/// The traced reference, beside what it shares with a bake.
+struct ReferenceSettings {
+  enum class Footprint { automatic, centre, half, full };
+  enum class Model { truth, flat_normal_map };
+
+  Footprint footprint = Footprint::automatic;
+  double error = 0;  // percent of a target's mean; 0: off
+  int sh = 0;        // order of the spherical harmonics; 0: none
+  Model model = Model::truth;
+  std::vector<std::string> faults;  // flat_normal_map: names; none: all that the version has
+  std::string blender_version;      // "3.4.1"; "": the one that wrote the scene's data
+};
+
 struct OutputSettings {
   enum class Layout { layers, files };
   enum class Depth { half, full };
@@ -87,6 +100,7 @@ struct RunSettings {
 struct BakeSettings {
   SceneSettings scene;
   BakingSettings bake;
+  ReferenceSettings reference;
   ObjectSettings object;  // what holds where no override matches
   OutputSettings output;
   RunSettings run;

@@ -84,13 +84,15 @@ std::string plain_default(const Setting& setting) {
 
 }  // namespace
 
-std::string print_config(const ResolvedConfig& config) {
+std::string print_config(const ResolvedConfig& config, Purpose purpose) {
   std::string text;
   for (const SettingTable& table : setting_tables()) {
-    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table.name);
+    std::string lines;
     for (const Given& given : config.values()) {
-      if (given.setting->table == table.name) text += line(given.setting->key, given.value, given.where);
+      if (given.setting->table == table.name && given.setting->serves(purpose))
+        lines += line(given.setting->key, given.value, given.where);
     }
+    if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", table.name, lines);
   }
   for (const ObjectOverride& override_ : config.overrides()) text += print_override(config, override_);
   return text;

@@ -7,8 +7,9 @@
 
 namespace rnmbake {
 
-/// A project file that gives the same settings, each line with where its value came from.
-[[nodiscard]] std::string print_config(const ResolvedConfig& config);
+/// A project file that gives the same settings, those that the purpose has a use for, each line with where
+/// its value came from.
+[[nodiscard]] std::string print_config(const ResolvedConfig& config, Purpose purpose = Purpose::bake);
 
 /// The tables of docs/project-file.md, in Markdown.
 [[nodiscard]] std::string settings_reference();

@@ -4,7 +4,6 @@
 #include "base/names.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <set>
 #include <system_error>
@@ -175,17 +174,18 @@ bool is_project_path(const std::filesystem::path& path) {
   return extension_of(path) == ".toml";
 }
 
-void require_scene(const ResolvedConfig& config) {
-  static constexpr std::array<std::string_view, 3> endings{".blend", ".glb", ".gltf"};
+void require_scene(const ResolvedConfig& config, Purpose purpose) {
+  std::vector<std::string_view> endings{".blend", ".glb"};
+  if (purpose == Purpose::reference) endings.insert(endings.begin(), ".rnmscene");
+  const std::string known = fmt::format("{} or .gltf", fmt::join(endings, ", "));
+  endings.emplace_back(".gltf");
   const std::filesystem::path& file = config.globals.scene.file;
   if (file.empty()) {
-    fail(ExitCode::usage,
-         "no scene: name a .blend, .glb or .gltf file, or a project .toml whose [scene] sets file");
+    fail(ExitCode::usage, "no scene: name a {} file, or a project .toml whose [scene] sets file", known);
   }
   if (std::find(endings.begin(), endings.end(), extension_of(file)) == endings.end()) {
-    fail(ExitCode::usage,
-         "{}: not a scene by its ending; give a .blend, .glb or .gltf file, or a project .toml",
-         file.string());
+    fail(ExitCode::usage, "{}: not a scene by its ending; give a {} file, or a project .toml", file.string(),
+         known);
   }
   std::error_code ignored;
   const auto status = std::filesystem::status(file, ignored);

@@ -63,8 +63,8 @@ struct UnmatchedPattern {
 
 [[nodiscard]] bool is_project_path(const std::filesystem::path& path);
 
-/// Throws Error(usage) where no scene was named or its ending is not .blend, .glb or .gltf, and Error(io)
-/// where there is no such file.
-void require_scene(const ResolvedConfig& config);
+/// Throws Error(usage) where no scene was named or its ending is not .blend, .glb or .gltf (for a reference
+/// also .rnmscene), and Error(io) where there is no such file.
+void require_scene(const ResolvedConfig& config, Purpose purpose = Purpose::bake);
 
 }  // namespace rnmbake

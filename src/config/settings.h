@@ -34,6 +34,9 @@ struct SettingSlot {
   std::function<void(BakeSettings&, const SettingValue&)> set;
 };
 
+/// What a command does with the settings.
+enum class Purpose { bake, reference, validate };
+
 struct Setting {
   std::string_view table, key;  // of the project file; keys are unique over all tables
   std::string_view help;        // one line, no full stop
@@ -44,6 +47,9 @@ struct Setting {
   std::string_view unit;                  // "texels", "MiB", ...; "" where there is none
   std::string_view empty_means;           // what 0, "" or [] stands for where it has a meaning of its own
   bool per_object = false;                // may stand in an [[override]]
+  std::vector<Purpose> purposes;          // whose flag it is; none: everybody's
+
+  [[nodiscard]] bool serves(Purpose purpose) const;
 
   [[nodiscard]] std::string flag() const;         // "--texels-per-unit"
   [[nodiscard]] std::string flag_names() const;   // as CLI11 wants it: "-o,--output", "--repair,!--no-repair"

@@ -91,6 +91,12 @@ std::string real_text(double value) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
+/// "0.5%" for a setting in percent is 0.5.
+std::string_view without_unit(const Setting& setting, std::string_view text) {
+  const std::string_view rest = trimmed(text);
+  return setting.unit == "percent" && rest.ends_with('%') ? rest.substr(0, rest.size() - 1) : text;
+}
+
 }  // namespace
 
 SettingValue parse_value(const Setting& setting, std::string_view text, const std::string& where) {
@@ -104,7 +110,7 @@ SettingValue parse_value(const Setting& setting, std::string_view text, const st
     case SettingKind::integer:
       return checked(setting, take(number<std::int64_t>(text)), where);
     case SettingKind::real:
-      return checked(setting, take(number<double>(text)), where);
+      return checked(setting, take(number<double>(without_unit(setting, text))), where);
     case SettingKind::text_list:
       return items(text);
     case SettingKind::choice:

@@ -101,6 +101,9 @@ void read_origin(const Header& header, LightmapMetadata& metadata) {
   header.optional("object", metadata.object);
   header.optional("uv", metadata.uv_layer);
   header.optional("tangent_uv", metadata.tangent_uv_layer);
+  header.optional("model", metadata.model);
+  header.optional("faults", metadata.faults);
+  header.optional("error", metadata.error);
 }
 
 void check_agreement(const Header& header, const LightmapMetadata& metadata) {
@@ -157,6 +160,10 @@ void write_metadata(const LightmapMetadata& metadata, LayeredImage& image) {
   set("object", metadata.object);
   set("uv", metadata.uv_layer);
   set("tangent_uv", metadata.tangent_uv_layer);
+  if (metadata.model.empty()) return;
+  set("model", metadata.model);
+  set("faults", metadata.faults);
+  set("error", metadata.error);
 }
 
 LightmapMetadata read_metadata(const LayeredImage& image, const std::string& file) {

@@ -31,13 +31,18 @@ struct LightmapMetadata {
   Normalize normalize = Normalize::none;
   std::vector<BasisDirection> bases;  // baked directions in layer order, "flat" included
 
-  std::string recipe;     // "receiver", "flat-normal-map"
+  std::string recipe;     // "receiver", "flat-normal-map", "reference"
   std::string horizon;    // how corners whose basis normal falls under their face were treated
-  std::string footprint;  // what a texel averages over: "half texel", "texel"
-  int samples = 0, bounces = 0, seed = 0;
-  bool repaired = false;  // whether some texel is a mean of its neighbours
+  std::string footprint;  // what a texel averages over: "texel centre", "half texel", "texel"
+  int samples = 0, bounces = 0, seed = 0;  // bounces -1: no limit
+  bool repaired = false;                   // whether some texel is a mean of its neighbours
   std::string rnmbake_version, blender_version;
   std::string object, uv_layer, tangent_uv_layer;
+
+  // Of a reference only.
+  std::string model;   // "true", "flat-normal-map"
+  std::string faults;  // of the latter, separated by commas; "none"
+  float error = 0;     // relative standard error that tracing went on for; 0: `samples` decided
 };
 
 /// True where the header carries the convention's name, i.e. the file calls itself an rnmbake lightmap.

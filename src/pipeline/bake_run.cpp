@@ -48,24 +48,23 @@ const char* footprint(const BlenderVersion& version) {
 
 class BakeRun {
  public:
-  BakeRun(Workspace& workspace, const SurveyedScene& scene, const TargetList& list,
-          const std::vector<BasisDirection>& bases)
+  BakeRun(Workspace& workspace, const BakeSubject& subject)
       : workspace_(workspace),
         settings_(workspace.settings()),
-        scene_(scene),
-        list_(list),
-        bases_(bases),
-        horizons_(list.targets.size()) {}
+        subject_(subject),
+        list_(subject.list),
+        bases_(subject.bases),
+        horizons_(list_.targets.size()) {}
 
   BakeOutcome run() {
     make_plan();
-    const BakeContext context{scene_.survey, list_.targets, bases_, plan_};
+    const BakeContext context{subject_.survey, list_.targets, bases_, plan_};
     log::info("baking {} lightmaps x {} bases in {} launch{} of Blender {}", list_.targets.size(),
               bases_.size(), plan_.dispatches.size(), plan_.dispatches.size() == 1 ? "" : "es",
               workspace_.blender().info().version_text);
     DeliveryDesk desk(context, settings_.output, notes_);
     BakeOutcome outcome;
-    outcome.timings = run_dispatches(workspace_, context, scene_.blend, desk);
+    outcome.timings = run_dispatches(workspace_, context, subject_.blend, desk);
     outcome.deliveries = desk.deliveries();
     write_records(outcome);
     return outcome;
@@ -106,7 +105,7 @@ class BakeRun {
     if (!by_receiver()) add_object_units(plan_, i, target, bases_, cycles);
     if (!by_receiver() && !settings_.output.frames) return;
 
-    const auto surface = std::make_shared<const Surface>(surface_of(scene_.survey, target));
+    const auto surface = std::make_shared<const Surface>(surface_of(subject_.survey, target));
     bool keep_surface = settings_.output.frames;
     if (by_receiver()) {
       std::vector<BasisDirection> bases = bases_;
@@ -121,16 +120,15 @@ class BakeRun {
   }
 
   void write_records(const BakeOutcome& outcome) {
-    const std::string with_uvs = save_scene_with_uvs(workspace_, scene_.survey, scene_.own, list_.targets);
-    const auto manifest =
-        make_manifest({settings_, scene_.survey, list_, bases_, notes_, horizons_, outcome.deliveries,
-                       name_of(resolve_dispatch(settings_.bake)), with_uvs, outcome.timings});
-    write_atomically(settings_.output.dir / "manifest.json", manifest.dump(2) + "\n");
+    const std::string with_uvs =
+        save_scene_with_uvs(workspace_, subject_.survey, subject_.own, list_.targets);
+    write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, with_uvs,
+                    BakeRecord{horizons_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
   }
 
   Workspace& workspace_;
   const BakeSettings& settings_;
-  const SurveyedScene& scene_;
+  const BakeSubject& subject_;
   const TargetList& list_;
   const std::vector<BasisDirection>& bases_;
   Plan plan_;
@@ -140,9 +138,8 @@ class BakeRun {
 
 }  // namespace
 
-BakeOutcome run_bake(Workspace& workspace, const SurveyedScene& scene, const TargetList& list,
-                     const std::vector<BasisDirection>& bases) {
-  return BakeRun(workspace, scene, list, bases).run();
+BakeOutcome run_bake(Workspace& workspace, const BakeSubject& subject) {
+  return BakeRun(workspace, subject).run();
 }
 
 }  // namespace rnmbake

@@ -5,9 +5,10 @@
 #include "pipeline/deliver_lightmap.h"
 #include "pipeline/dispatcher.h"
 #include "pipeline/make_targets.h"
-#include "pipeline/scene_survey.h"
 #include "pipeline/workspace.h"
+#include "scene/survey.h"
 
+#include <filesystem>
 #include <vector>
 
 namespace rnmbake {
@@ -18,11 +19,18 @@ struct BakeOutcome {
   BakeTimings timings;
 };
 
-/// Bakes all targets for all `bases` as the workspace's settings say, into their output folder, and writes
-/// the scene with its UVs and the manifest. What fails is logged and in the manifest. Neither scene nor
-/// targets are changed or worked out again: several bakes of one scene share them, each with a workspace of
-/// its own settings. Throws Interrupted, and Error where going on makes no sense.
-[[nodiscard]] BakeOutcome run_bake(Workspace& workspace, const SurveyedScene& scene, const TargetList& list,
-                                   const std::vector<BasisDirection>& bases);
+/// What is baked, in which file. Several bakes of one scene share it.
+struct BakeSubject {
+  const Survey& survey;
+  const TargetList& list;
+  const std::vector<BasisDirection>& bases;
+  std::filesystem::path blend;  // what Blender opens: the scene, or a .blend made from it
+  std::filesystem::path own;    // the same with the user's own materials, to be saved with new UVs
+};
+
+/// Bakes all targets for all bases as the workspace's settings say, into their output folder, and writes the
+/// scene with its UVs and the manifest. What fails is logged and in the manifest. Samples, seed and the like
+/// come from the list's own settings. Throws Interrupted, and Error where going on makes no sense.
+[[nodiscard]] BakeOutcome run_bake(Workspace& workspace, const BakeSubject& subject);
 
 }  // namespace rnmbake

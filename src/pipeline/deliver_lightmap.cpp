@@ -64,8 +64,11 @@ void prepare_output(const OutputSettings& output) {
   AtomicFile(output.dir / "manifest.json").write(std::string(1 << 16, ' '));  // never committed
 }
 
-Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note, const OutputSettings& output) {
-  MergedLightmap merged = merge(bakes, merge_options(output, note));
+Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note, const OutputSettings& output,
+                           ExtraLayers extra) {
+  const MergeOptions options = merge_options(output, note);
+  MergedLightmap merged = merge(bakes, options);
+  add_extra_layers(std::move(extra), options, merged.image);
   warn_about(note.metadata.object, merged.counts, output.repair);
   LightmapMetadata metadata = note.metadata;
   for (const BasisBake& basis : bakes.bases) metadata.bases.push_back({basis.name, basis.direction});

@@ -3,6 +3,7 @@
 
 #include "config/bake_settings.h"
 #include "image/bakes.h"
+#include "lightmap/extra_layers.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"
 #include "scene/surface.h"
@@ -45,6 +46,6 @@ void prepare_output(const OutputSettings& output);
 /// Merges, writes the header and the files; warns of what had to be mended. `note.metadata` lacks only its
 /// bases. Throws Error(io).
 [[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note,
-                                         const OutputSettings& output);
+                                         const OutputSettings& output, ExtraLayers extra = {});
 
 }  // namespace rnmbake

@@ -1,5 +1,7 @@
 #include "pipeline/manifest.h"
 
+#include "base/files.h"
+
 #include <filesystem>
 
 namespace rnmbake {
@@ -33,6 +35,22 @@ json to_json(const BakeTimings& timings) {
           {"peak_bytes", timings.peak_bytes}};
 }
 
+void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size_t index, json& entry) {
+  const LightmapMetadata& metadata = input.notes[index].metadata;
+  entry["horizon"] = to_json(bake.horizons[index], metadata.horizon);
+}
+
+void add_to_object(const ReferenceRecord& reference, const ManifestInput& input, std::size_t index,
+                   json& entry) {
+  const std::string& key = input.survey.objects[input.list.targets[index].object].key;
+  for (const OutsideModel& outside : reference.outside) {
+    if (outside.owner == "object '" + key + "'") entry["outside_model"] = outside.what;
+  }
+  if (entry["status"] != "baked") return;
+  entry["paths"] = reference.traced[index].paths;
+  entry["standard_error"] = reference.traced[index].error;
+}
+
 json describe_object(const ManifestInput& input, std::size_t index) {
   const Target& target = input.list.targets[index];
   const SceneObject& object = input.survey.objects[target.object];
@@ -48,8 +66,7 @@ json describe_object(const ManifestInput& input, std::size_t index) {
              {"tangent_uv_layer", target.tangent_layer},
              {"green", name_of(metadata.green)},
              {"samples", metadata.samples},
-             {"seed", metadata.seed},
-             {"horizon", to_json(input.horizons[index], metadata.horizon)}};
+             {"seed", metadata.seed}};
   const auto& delivery = input.deliveries[index];
   if (const auto* delivered = delivery ? std::get_if<Delivered>(&*delivery) : nullptr) {
     entry["status"] = "baked";
@@ -61,6 +78,7 @@ json describe_object(const ManifestInput& input, std::size_t index) {
     entry["files"] = json::array();
     entry["error"] = delivery ? std::get<NotDelivered>(*delivery).reason : "not baked";
   }
+  std::visit([&](const auto& record) { add_to_object(record, input, index, entry); }, input.record);
   return entry;
 }
 
@@ -73,37 +91,63 @@ json describe_bases(const std::vector<BasisDirection>& bases) {
   return list;
 }
 
+const char* name_of(SceneSettings::Materials materials) {
+  return materials == SceneSettings::Materials::lambert ? "lambert" : "full";
+}
+
+void add_to_top(const BakeRecord& bake, const BakeSettings& settings, json& manifest) {
+  manifest["kind"] = "bake";
+  manifest["materials"] = name_of(settings.scene.materials);
+  manifest["dispatch"] = bake.dispatch;
+  manifest["timings"] = to_json(bake.timings);
+}
+
+void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings*/, json& manifest) {
+  manifest["kind"] = "reference";
+  manifest["materials"] = name_of(SceneSettings::Materials::lambert);
+  manifest["model"] = reference.model;
+  manifest["faults"] = reference.faults;
+  manifest["error"] = reference.error;
+  manifest["outside_model"] = json::array();
+  for (const OutsideModel& outside : reference.outside)
+    manifest["outside_model"].push_back({{"owner", outside.owner}, {"what", outside.what}});
+  std::int64_t rays = 0;
+  for (const auto& traced : reference.traced) rays += traced.rays;
+  manifest["timings"] = {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};
+}
+
 }  // namespace
 
 nlohmann::json make_manifest(const ManifestInput& input) {
   const LightmapMetadata common = input.notes.empty() ? LightmapMetadata{} : input.notes.front().metadata;
-  json manifest{
-      {"schema_version", manifest_schema_version},
-      {"rnmbake", common.rnmbake_version},
-      {"blender", input.survey.blender_version},
-      {"scene", input.settings.scene.file.filename().string()},
-      {"scene_with_uvs", input.scene_with_uvs},
-      {"conventions",
-       {{"encoding", common.convention},
-        {"units", common.units},
-        {"space", common.space},
-        {"handedness", common.handedness},
-        {"normalize", name_of(common.normalize)},
-        {"footprint", common.footprint}}},
-      {"bases", describe_bases(input.bases)},
-      {"recipe", common.recipe},
-      {"materials", input.settings.scene.materials == SceneSettings::Materials::lambert ? "lambert" : "full"},
-      {"dispatch", input.dispatch},
-      {"bounces", common.bounces},
-      {"objects", json::array()},
-      {"skipped", json::array()},
-      {"timings", to_json(input.timings)}};
+  json manifest{{"schema_version", manifest_schema_version},
+                {"rnmbake", common.rnmbake_version},
+                {"blender", input.survey.blender_version},
+                {"scene", input.settings.scene.file.filename().string()},
+                {"scene_with_uvs", input.scene_with_uvs},
+                {"conventions",
+                 {{"encoding", common.convention},
+                  {"units", common.units},
+                  {"space", common.space},
+                  {"handedness", common.handedness},
+                  {"normalize", name_of(common.normalize)},
+                  {"footprint", common.footprint}}},
+                {"bases", describe_bases(input.bases)},
+                {"recipe", common.recipe},
+                {"bounces", common.bounces},
+                {"objects", json::array()},
+                {"skipped", json::array()}};
+  std::visit([&](const auto& record) { add_to_top(record, input.settings, manifest); }, input.record);
   for (std::size_t i = 0; i < input.list.targets.size(); ++i)
     manifest["objects"].push_back(describe_object(input, i));
   for (const Skipped& skipped : input.list.skipped) {
     manifest["skipped"].push_back({{"key", skipped.key}, {"reason", skipped.reason}});
   }
   return manifest;
+}
+
+void write_manifest(const ManifestInput& input) {
+  write_atomically(input.settings.output.dir / "manifest.json", make_manifest(input).dump(2) + "\n");
 }
 
 }  // namespace rnmbake

@@ -1,13 +1,16 @@
-// pipeline/manifest.h - DIR/manifest.json: what was baked, from what, how it went (docs/manifest.md).
+// pipeline/manifest.h - DIR/manifest.json: what was baked or traced, from what, how it went
+// (docs/manifest.md).
 #pragma once
 
 #include "bake/receiver.h"
-#include "pipeline/delivery.h"
+#include "pipeline/deliver_lightmap.h"
 #include "pipeline/dispatcher.h"
 #include "pipeline/make_targets.h"
-#include "scene/survey.h"
+#include "scene/exchange.h"
 
+#include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -17,20 +20,42 @@ namespace rnmbake {
 /// Raised when a reader of the old form would misunderstand the new one.
 inline constexpr int manifest_schema_version = 1;
 
+/// What only a bake has to say.
+struct BakeRecord {
+  const std::vector<HorizonCounts>& horizons;  // [targets]
+  std::string dispatch;                        // basis, object, scene
+  BakeTimings timings;
+};
+
+/// What only a reference has to say.
+struct ReferenceRecord {
+  std::string model;                // true, flat-normal-map
+  std::vector<std::string> faults;  // of the latter
+  double error = 0;                 // asked for, a share; 0: none
+  struct Traced {
+    std::int64_t paths = 0, rays = 0;
+    double error = 0;  // RMS of the texels' standard errors over their mean, worst direction
+  };
+  std::vector<Traced> traced;                // [targets]
+  const std::vector<OutsideModel>& outside;  // what the tracer cannot do of the scene
+  double wall_seconds = 0;
+};
+
 struct ManifestInput {
   const BakeSettings& settings;
   const Survey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
-  const std::vector<DeliveryNote>& notes;      // [targets]
-  const std::vector<HorizonCounts>& horizons;  // [targets]
-  const std::vector<Delivery>& deliveries;     // [targets]
-  std::string dispatch;                        // basis, object, scene
-  std::string scene_with_uvs;                  // file in the output folder, "" if none was saved
-  BakeTimings timings;
+  const std::vector<DeliveryNote>& notes;   // [targets]
+  const std::vector<Delivery>& deliveries;  // [targets]
+  std::string scene_with_uvs;               // file in the output folder, "" if none was saved
+  std::variant<BakeRecord, ReferenceRecord> record;
 };
 
 /// Everything except "timings" is the same whenever the same bake is run again.
 [[nodiscard]] nlohmann::json make_manifest(const ManifestInput& input);
+
+/// Writes it to the output folder.
+void write_manifest(const ManifestInput& input);
 
 }  // namespace rnmbake

@@ -1,0 +1,75 @@
+#include "cli/reference.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "cli/basis_file.h"
+#include "cli/settings_flags.h"
+#include "pipeline/export_scene.h"
+#include "pipeline/late_blender.h"
+#include "pipeline/reference_run.h"
+#include "pipeline/save_scene.h"
+#include "process/stop.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace rnmbake {
+namespace {
+
+int report(const ReferenceOutcome& outcome, const OutputSettings& output) {
+  const std::size_t total = outcome.deliveries.size();
+  if (const std::size_t failed = count_failed(outcome.deliveries); failed > 0) {
+    log::warn("{} of {} objects failed; the others are in {}", failed, total, output.dir.string());
+    return static_cast<int>(ExitCode::tasks_failed);
+  }
+  log::info("{} lightmap{} in {}, {:.1f} s, {:.2f} million rays a second", total, total == 1 ? "" : "s",
+            output.dir.string(), outcome.wall_seconds,
+            outcome.wall_seconds > 0 ? double(outcome.rays) / outcome.wall_seconds / 1e6 : 0.0);
+  return static_cast<int>(ExitCode::ok);
+}
+
+void say_what_is_left_out(const Exchange& scene) {
+  for (const OutsideModel& outside : scene.outside) {
+    std::string what;
+    for (const std::string& one : outside.what) what += (what.empty() ? "" : ", ") + one;
+    log::warn("{}: outside the reference's model: {}", outside.owner, what);
+  }
+}
+
+int reference(const ResolvedConfig& config) {
+  const BakeSettings& settings = config.globals;
+  const std::vector<BasisDirection> bases = choose_bases(settings.bake);
+  LateBlender blender(settings);
+  if (!is_exchange(settings.scene.file)) (void)blender.info();  // missing: said before anything is written
+  Workspace workspace(config, blender);
+  prepare_output(settings.output);
+  const ExportedScene exported = export_scene(workspace);
+  const Survey& survey = exported.exchange.survey;
+  say_what_is_left_out(exported.exchange);
+  const ReferencePlan plan = plan_reference(config, survey.blender_version);
+  const TraceScene scene(exported.exchange, plan.blender_version);
+  std::string with_uvs;
+  if (!exported.scene.blend.empty())
+    with_uvs = save_scene_with_uvs(workspace, survey, exported.scene.own, exported.list.targets);
+  log::info("tracing {} lightmaps x {} directions against Blender {}", exported.list.targets.size(),
+            bases.size(), plan.blender_version);
+  return report(run_reference({scene, exported.list, bases}, settings, plan, "tracing", with_uvs),
+                settings.output);
+}
+
+}  // namespace
+
+std::function<int()> add_reference_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "reference", "Trace what the lightmaps of a scene should hold, with standard errors");
+  auto flags = std::make_shared<SettingsFlags>(*command, Purpose::reference);
+  return [flags] {
+    const auto config = flags->resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    return reference(*config);
+  };
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,307 @@
+#include "config/settings_table.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace rnmbake {
+
+namespace {
+
+using Spelling = std::vector<std::string_view>;
+
+// How each choice is written, in the order of its enum.
+Spelling spelling(ObjectSettings::Unwrap) {
+  return {"auto", "never", "always"};
+}
+Spelling spelling(ObjectSettings::Horizon) {
+  return {"identity", "clamp"};
+}
+Spelling spelling(ObjectSettings::Split) {
+  return {"none", "material", "loose"};
+}
+Spelling spelling(SceneSettings::Materials) {
+  return {"full", "lambert"};
+}
+Spelling spelling(BakingSettings::Recipe) {
+  return {"receiver", "flat-normal-map"};
+}
+Spelling spelling(BakingSettings::Dispatch) {
+  return {"auto", "basis", "object", "scene"};
+}
+Spelling spelling(BakingSettings::Device) {
+  return {"CPU", "CUDA", "OPTIX", "HIP", "METAL", "ONEAPI"};
+}
+Spelling spelling(ReferenceSettings::Footprint) {
+  return {"auto", "centre", "half", "full"};
+}
+Spelling spelling(ReferenceSettings::Model) {
+  return {"true", "flat-normal-map"};
+}
+Spelling spelling(OutputSettings::Layout) {
+  return {"layers", "files"};
+}
+Spelling spelling(OutputSettings::Depth) {
+  return {"half", "float"};
+}
+Spelling spelling(OutputSettings::Normalize) {
+  return {"none", "flat"};
+}
+Spelling spelling(OutputSettings::SaveScene) {
+  return {"auto", "never", "always"};
+}
+
+template <typename T>
+SettingKind kind_of() {
+  if constexpr (std::is_same_v<T, bool>) return SettingKind::boolean;
+  if constexpr (std::is_same_v<T, int>) return SettingKind::integer;
+  if constexpr (std::is_same_v<T, double>) return SettingKind::real;
+  if constexpr (std::is_same_v<T, std::string>) return SettingKind::text;
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return SettingKind::text_list;
+  if constexpr (std::is_same_v<T, std::filesystem::path>) return SettingKind::path;
+  if constexpr (std::is_enum_v<T>) return SettingKind::choice;
+}
+
+template <typename T>
+SettingValue to_value(const T& field) {
+  if constexpr (std::is_enum_v<T>) {
+    return std::string(spelling(field).at(static_cast<std::size_t>(field)));
+  } else if constexpr (std::is_same_v<T, int>) {
+    return std::int64_t{field};
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return field.string();
+  } else {
+    return field;
+  }
+}
+
+template <typename T>
+void from_value(T& field, const SettingValue& value) {
+  if constexpr (std::is_enum_v<T>) {
+    const Spelling names = spelling(field);
+    field =
+        static_cast<T>(std::find(names.begin(), names.end(), std::get<std::string>(value)) - names.begin());
+  } else if constexpr (std::is_same_v<T, int>) {
+    field = static_cast<int>(std::get<std::int64_t>(value));
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    field = std::get<std::string>(value);
+  } else {
+    field = std::get<T>(value);
+  }
+}
+
+/// One line of the table. What the field's place and type tell is not said again: kind, choices, per object.
+class Row {
+ public:
+  template <typename Part, typename T>
+  Row(std::string_view table, std::string_view key, Part BakeSettings::*part, T Part::*field,
+      std::string_view help) {
+    setting_.table = table;
+    setting_.key = key;
+    setting_.help = help;
+    setting_.kind = kind_of<T>();
+    setting_.per_object = std::is_same_v<Part, ObjectSettings>;
+    setting_.slot.get = [=](const BakeSettings& s) { return to_value(s.*part.*field); };
+    setting_.slot.set = [=](BakeSettings& s, const SettingValue& v) { from_value(s.*part.*field, v); };
+    if constexpr (std::is_enum_v<T>) setting_.choices = spelling(T{});
+    if constexpr (std::is_same_v<T, int>) setting_.high = std::numeric_limits<int>::max();
+    if constexpr (std::is_same_v<T, double>) setting_.high = 1'000'000'000;
+  }
+
+  Row range(std::int64_t low, std::int64_t high) {
+    setting_.low = low;
+    setting_.high = high;
+    return *this;
+  }
+  Row unit(std::string_view unit) {
+    setting_.unit = unit;
+    return *this;
+  }
+  Row empty_means(std::string_view meaning) {
+    setting_.empty_means = meaning;
+    return *this;
+  }
+  Row only(std::initializer_list<Purpose> purposes) {
+    setting_.purposes = purposes;
+    return *this;
+  }
+  Row program() {
+    setting_.kind = SettingKind::program;
+    return *this;
+  }
+  operator Setting() const { return setting_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  Setting setting_;
+};
+
+template <typename T>
+Row scene(std::string_view key, T SceneSettings::*field, std::string_view help) {
+  return {"scene", key, &BakeSettings::scene, field, help};
+}
+template <typename T>
+Row bake(std::string_view key, T BakingSettings::*field, std::string_view help) {
+  return {"bake", key, &BakeSettings::bake, field, help};
+}
+template <typename T>
+Row bake(std::string_view key, T ObjectSettings::*field, std::string_view help) {
+  return {"bake", key, &BakeSettings::object, field, help};
+}
+template <typename T>
+Row reference(std::string_view key, T ReferenceSettings::*field, std::string_view help) {
+  return Row{"reference", key, &BakeSettings::reference, field, help}.only(
+      {Purpose::reference, Purpose::validate});
+}
+template <typename T>
+Row output(std::string_view key, T OutputSettings::*field, std::string_view help) {
+  return {"output", key, &BakeSettings::output, field, help};
+}
+template <typename T>
+Row output(std::string_view key, T ObjectSettings::*field, std::string_view help) {
+  return {"output", key, &BakeSettings::object, field, help};
+}
+template <typename T>
+Row run(std::string_view key, T RunSettings::*field, std::string_view help) {
+  return {"run", key, &BakeSettings::run, field, help};
+}
+
+}  // namespace
+
+std::vector<Setting> make_settings_table() {
+  using Scene = SceneSettings;
+  using Bake = BakingSettings;
+  using Object = ObjectSettings;
+  using Reference = ReferenceSettings;
+  using Output = OutputSettings;
+  using Run = RunSettings;
+  return {
+      scene("file", &Scene::file, "scene to bake: .blend, .glb or .gltf"),
+      scene("objects", &Scene::objects, "names of the objects to bake; * and ? are wildcards"),
+      scene("exclude", &Scene::exclude, "names of objects to leave out; they still cast light and shadow"),
+      scene("allow_scripts", &Scene::allow_scripts, "let Python scripts and drivers in the scene file run"),
+      scene("materials", &Scene::materials,
+            "lambert replaces every material by its own baked albedo and emission")
+          .only({Purpose::bake}),
+
+      bake("uv", &Object::uv, "UV layer of the lightmap")
+          .empty_means("a layer named Lightmap, UV2 or lightmap, else the second one, else unwrapped"),
+      bake("unwrap", &Object::unwrap, "make lightmap UVs: when there are none, never, or always"),
+      bake("unwrap_margin", &Object::unwrap_margin,
+           "gap between charts that unwrapping leaves, at most 1/16 of the side")
+          .range(0, 1024)
+          .unit("texels"),
+      bake("tangent_uv", &Object::tangent_uv, "UV layer of the normal map; the tangent frame is its own")
+          .empty_means("the active-render layer"),
+      bake("flip_green", &Object::flip_green, "the engine's normal maps have Y down (Unreal, Source)"),
+      bake("resolution", &Object::resolution, "side of each lightmap, rounded up to a multiple of 4")
+          .range(4, 16384)
+          .unit("texels"),
+      bake("texels_per_unit", &Object::texels_per_unit, "choose each object's resolution by its surface")
+          .unit("texels per scene unit")
+          .empty_means("use resolution"),
+      bake("min_resolution", &Object::min_resolution, "least side that texels_per_unit may choose")
+          .range(4, 16384)
+          .unit("texels"),
+      bake("max_resolution", &Object::max_resolution, "greatest side that texels_per_unit may choose")
+          .range(4, 16384)
+          .unit("texels"),
+      bake("bases", &Bake::bases, "directions to bake")
+          .empty_means("flat, rnm0, rnm1, rnm2; with a basis file: all of its vectors"),
+      bake("basis", &Bake::basis, "TOML file with a list of unit vectors to bake instead of RNM's")
+          .empty_means("flat and the three vectors of RNM"),
+      bake("recipe", &Bake::recipe, "receiver is exact; flat-normal-map is the published recipe, uncorrected")
+          .only({Purpose::bake}),
+      bake("correct_bump", &Bake::correct_bump,
+           "flat-normal-map: turn off the bump correction where this Blender lets us")
+          .only({Purpose::bake}),
+      bake("horizon", &Object::horizon, "corners whose basis normal lies under their face: exact, or clamped")
+          .only({Purpose::bake, Purpose::validate}),
+      bake("dispatch", &Bake::dispatch,
+           "one Blender launch for each object and basis, each object, or the scene")
+          .only({Purpose::bake}),
+      bake("atlas_limit", &Bake::atlas_limit, "most pixels in one bake call")
+          .range(4096, 1'073'741'824)
+          .unit("pixels")
+          .only({Purpose::bake, Purpose::validate}),
+      bake("memory_limit", &Bake::memory_limit, "most memory that one Blender should need")
+          .range(0, 16'777'216)
+          .unit("MiB")
+          .empty_means("from what the machine has free")
+          .only({Purpose::bake, Purpose::validate}),
+      bake("split", &Object::split, "bake each material slot or loose part as a target of its own"),
+      bake("samples", &Object::samples, "paths for each texel and basis").range(1, 16'777'216),
+      bake("bounces", &Bake::bounces, "longest path of light after the first hit").range(0, 1024),
+      bake("seed", &Object::seed, "noise pattern; the same seed gives the same noise"),
+      bake("clamp", &Object::clamp, "cap on the radiance of one sample; biased")
+          .empty_means("off")
+          .only({Purpose::bake, Purpose::validate}),
+      bake("device", &Bake::device, "what Cycles computes on").only({Purpose::bake, Purpose::validate}),
+
+      reference("footprint", &Reference::footprint,
+                "what a texel averages over; auto: as the Blender compared with"),
+      reference("error", &Reference::error,
+                "trace until the standard error of each object's texels is that share of its mean")
+          .range(0, 100)
+          .unit("percent")
+          .empty_means("off; --samples decides"),
+      reference("sh", &Reference::sh, "add spherical harmonics of the incoming light, to that order")
+          .range(0, 3)
+          .empty_means("none")
+          .only({Purpose::reference}),
+      reference("model", &Reference::model,
+                "true is the truth; flat-normal-map makes the errors of the published recipe")
+          .only({Purpose::reference}),
+      reference(
+          "faults", &Reference::faults,
+          "flat-normal-map: which of tilt-clamp, bump-shadowing, self-reflection, below-horizon; or none")
+          .empty_means("all that the Blender version has")
+          .only({Purpose::reference}),
+      reference("blender_version", &Reference::blender_version,
+                "whose footprint, faults and light units, as 3.4.1 or 4.3")
+          .empty_means("the Blender that wrote the scene's data")
+          .only({Purpose::reference}),
+
+      output("dir", &Output::dir, "folder for lightmaps and manifest.json; made when missing"),
+      output("layout", &Output::layout, "one EXR with layers for each object, or one EXR for each basis")
+          .only({Purpose::bake, Purpose::reference}),
+      output("depth", &Output::depth, "half (16 bits) or float (32 bits) for each channel")
+          .only({Purpose::bake, Purpose::reference}),
+      output("frames", &Output::frames, "add the world-space tangent and normal as layers")
+          .only({Purpose::bake, Purpose::reference}),
+      output("normalize", &Output::normalize,
+             "flat scales the maps so that a flat normal decodes to the flat bake")
+          .only({Purpose::bake, Purpose::reference}),
+      output("dilate", &Object::dilate, "grow charts into the gaps around them")
+          .range(0, 1024)
+          .unit("texels"),
+      output("repair", &Output::repair, "replace fireflies, NaN and Inf by their neighbours")
+          .only({Purpose::bake, Purpose::reference}),
+      output("save_scene", &Output::save_scene,
+             "save a copy of the scene with the unwrapped UVs: when there are any, never, always")
+          .only({Purpose::bake, Purpose::reference}),
+      output("keep_temporary", &Output::keep_temporary, "keep what Blender was given and returned"),
+
+      run("blender", &Run::blender, "Blender to use: a path or a name in PATH")
+          .program()
+          .empty_means("PATH and the usual places"),
+      run("scripts", &Run::scripts, "folder with the Blender scripts, for development")
+          .empty_means("those inside the program"),
+      run("jobs", &Run::jobs, "Blender processes at a time")
+          .range(0, 1024)
+          .empty_means("automatic")
+          .only({Purpose::bake, Purpose::validate}),
+      run("threads", &Run::threads, "threads of each Blender, and of the tracer")
+          .range(0, 1024)
+          .empty_means("all cores, shared among the jobs"),
+      run("timeout", &Run::timeout, "end a Blender that makes no progress for so long")
+          .range(1, 604'800)
+          .unit("seconds"),
+      run("retries", &Run::retries, "times that a failed launch is tried again")
+          .range(0, 100)
+          .only({Purpose::bake, Purpose::validate}),
+  };
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,12 @@
+// config/settings_table.h - the lines of the table; config/settings.h is what others read.
+#pragma once
+
+#include "config/settings.h"
+
+#include <vector>
+
+namespace rnmbake {
+
+[[nodiscard]] std::vector<Setting> make_settings_table();
+
+}  // namespace rnmbake

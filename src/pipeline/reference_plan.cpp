@@ -1,0 +1,119 @@
+#include "pipeline/reference_plan.h"
+
+#include "base/error.h"
+#include "base/names.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+constexpr BlenderVersion first_without_tilt_clamp{3, 6, 0};  // from there on only glossy closures are bent
+constexpr BlenderVersion first_with_full_footprint{5, 0, 0};
+constexpr int enough_samples = 1 << 20;  // where only --error says when to stop
+
+struct NamedFault {
+  const char* name;
+  bool RecipeFaults::*on;
+};
+constexpr std::array<NamedFault, 4> known_faults{{{"tilt-clamp", &RecipeFaults::tilt_clamp},
+                                                  {"bump-shadowing", &RecipeFaults::bump_shadowing},
+                                                  {"self-reflection", &RecipeFaults::self_reflection},
+                                                  {"below-horizon", &RecipeFaults::below_horizon}}};
+
+RecipeFaults faults_named(const std::vector<std::string>& names, const std::string& where) {
+  RecipeFaults faults;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known_faults, name, &NamedFault::name);
+    if (found != known_faults.end()) {
+      faults.*found->on = true;
+    } else if (name != "none" || names.size() > 1) {
+      std::vector<std::string> words{"none"};
+      for (const NamedFault& fault : known_faults) words.emplace_back(fault.name);
+      fail(ExitCode::usage,
+           "{}: '{}' is no fault of the recipe; give tilt-clamp, bump-shadowing, self-reflection, "
+           "below-horizon, or none alone{}",
+           where, name, did_you_mean(name, words));
+    }
+  }
+  return faults;
+}
+
+Footprint footprint_of(ReferenceSettings::Footprint wanted, const BlenderVersion& version) {
+  switch (wanted) {
+    case ReferenceSettings::Footprint::centre:
+      return Footprint::centre;
+    case ReferenceSettings::Footprint::half:
+      return Footprint::half;
+    case ReferenceSettings::Footprint::full:
+      return Footprint::full;
+    case ReferenceSettings::Footprint::automatic:
+      break;
+  }
+  return version >= first_with_full_footprint ? Footprint::full : Footprint::half;
+}
+
+}  // namespace
+
+ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& scene_version) {
+  const BakeSettings& settings = config.globals;
+  const ReferenceSettings& wanted = settings.reference;
+  const bool named = !wanted.blender_version.empty();
+  ReferencePlan plan;
+  plan.blender_version = named ? wanted.blender_version : scene_version;
+  const BlenderVersion version =
+      blender_version_of(plan.blender_version, named ? config.provenance("blender_version") : "the scene");
+  plan.footprint = footprint_of(wanted.footprint, version);
+  plan.flat_normal_map = wanted.model == ReferenceSettings::Model::flat_normal_map;
+  if (!wanted.faults.empty() && !plan.flat_normal_map) {
+    fail(ExitCode::usage, "{}: the true model has no faults; add --model flat-normal-map",
+         config.provenance("faults"));
+  }
+  if (plan.flat_normal_map) {
+    plan.faults =
+        wanted.faults.empty() ? faults_of(version) : faults_named(wanted.faults, config.provenance("faults"));
+  }
+  plan.error = wanted.error / 100;
+  if (plan.error > 0 && config.provenance("samples") == "default") plan.most_samples = enough_samples;
+  if (config.provenance("bounces") != "default") plan.bounces = settings.bake.bounces;
+  plan.sh = wanted.sh;
+  plan.threads = settings.run.threads;
+  return plan;
+}
+
+BlenderVersion blender_version_of(const std::string& text, const std::string& where) {
+  BlenderVersion version;
+  if (std::sscanf(text.c_str(), "%d.%d.%d", &version.major, &version.minor, &version.patch) < 2) {
+    fail(ExitCode::usage, "{}: '{}' is no Blender version; give one as 3.4.1 or 4.3", where, text);
+  }
+  return version;
+}
+
+RecipeFaults faults_of(const BlenderVersion& version) {
+  return {version < first_without_tilt_clamp, true, true, true};
+}
+
+std::vector<std::string> names_of(const RecipeFaults& faults) {
+  std::vector<std::string> names;
+  for (const NamedFault& fault : known_faults) {
+    if (faults.*fault.on) names.emplace_back(fault.name);
+  }
+  return names;
+}
+
+const char* name_of(Footprint footprint) {
+  switch (footprint) {
+    case Footprint::centre:
+      return "texel centre";
+    case Footprint::half:
+      return "half texel";
+    case Footprint::full:
+      break;
+  }
+  return "texel";
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,37 @@
+// pipeline/reference_run.h - one reference: targets are traced and become lightmaps and a manifest.
+#pragma once
+
+#include "basis/basis_set.h"
+#include "config/bake_settings.h"
+#include "pipeline/deliver_lightmap.h"
+#include "pipeline/make_targets.h"
+#include "pipeline/reference_plan.h"
+#include "trace/scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// What is traced. The scene is the tracer's; several references share it.
+struct ReferenceSubject {
+  const TraceScene& scene;
+  const TargetList& list;  // of the scene's objects; samples and seed as its settings say
+  const std::vector<BasisDirection>& bases;
+};
+
+struct ReferenceOutcome {
+  std::vector<Delivery> deliveries;  // [targets]
+  double wall_seconds = 0;
+  std::int64_t rays = 0;
+};
+
+/// Traces all targets and writes each as soon as it is complete into the settings' output folder, named as a
+/// bake would name it; the manifest last. `title` heads the progress, `with_uvs` goes into the manifest.
+/// Throws Interrupted, with what was complete in its place, and Error(io) where nothing more can be written.
+[[nodiscard]] ReferenceOutcome run_reference(const ReferenceSubject& subject, const BakeSettings& settings,
+                                             const ReferencePlan& plan, const std::string& title = "tracing",
+                                             const std::string& with_uvs = "");
+
+}  // namespace rnmbake
