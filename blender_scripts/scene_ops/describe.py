@@ -97,47 +97,67 @@ def bends_normals(node):
                for name in ("Normal", "Clearcoat Normal", "Coat Normal"))
 
 
+# What says how large a lamp is, how it spreads its light and what its energy counts.
+LIGHT_SIZES = ("angle", "shadow_soft_size", "spot_size", "spot_blend", "size", "size_y", "spread", "use_soft_falloff",
+               "normalize")
+
+
 def describe_light(ob, matrix):
-    """LightInfo of scene/survey.h, and the size that the light's type has."""
+    """LightInfo of scene/survey.h, and the sizes that the light's type has.
+
+    Energy and colour are what arrives: exposure, colour temperature and a plain emission node are in them.
+    """
     light = ob.data
-    shape = {name: float(getattr(light, name)) for name in
-             ("angle", "shadow_soft_size", "spot_size", "spot_blend", "size", "size_y") if hasattr(light, name)}
+    energy, color = float(light.energy), [float(value) for value in light.color]
+    energy *= 2.0 ** getattr(light, "exposure", 0.0)
+    if getattr(light, "use_temperature", False):
+        color = [a * b for a, b in zip(color, light.temperature_color)]
+    node = node_emission(light)
+    if node:
+        energy *= node[0]
+        color = [a * b for a, b in zip(color, node[1])]
     return {
         "name": ob.original.name,
         "type": light.type,
-        "energy": float(light.energy),
-        "color": [float(value) for value in light.color],
+        "energy": energy,
+        "color": color,
         "shape": getattr(light, "shape", ""),
-        "sizes": shape,
+        "sizes": {name: float(getattr(light, name)) for name in LIGHT_SIZES if hasattr(light, name)},
         "matrix": [value for row in matrix for value in row],
-        "outside_model": sorted(set(outside_of_light(ob, light))),
+        "outside_model": sorted(set(outside_of_light(ob, light, matrix))),
     }
 
 
-def outside_of_light(ob, light):
-    if light.use_nodes and light.node_tree and not is_plain_light_tree(light.node_tree):
+def outside_of_light(ob, light, matrix):
+    if node_emission(light) is None:
         yield "node tree"
     cycles = getattr(light, "cycles", None)
     if getattr(cycles, "is_portal", False):
         yield "portal"
     if not getattr(light, "use_shadow", True) or not getattr(cycles, "cast_shadow", True):
         yield "no shadow"
-    if getattr(light, "use_temperature", False):
-        yield "colour temperature"
-    if getattr(light, "exposure", 0.0) != 0.0:
-        yield "exposure"
-    if not getattr(light, "normalize", True):
-        yield "not normalized"
     linking = getattr(ob.original, "light_linking", None)
     if linking and (linking.receiver_collection or linking.blocker_collection):
         yield "light linking"
+    if light.type in {"AREA", "SPOT"} and is_sheared(matrix):
+        yield "sheared"
 
 
-def is_plain_light_tree(tree):
-    """The tree that Blender gives a light by itself: one white emission of strength 1."""
-    emission = tree_source(tree, "OUTPUT_LIGHT")
-    return (emission is not None and emission.type == "EMISSION" and constant(emission, "Strength") == 1.0
-            and constant(emission, "Color") == (1.0, 1.0, 1.0))
+def is_sheared(matrix):
+    """A scaled parent that is turned does it; Cycles then samples a shape that is not there."""
+    axes = [matrix.to_3x3().col[i].normalized() for i in range(3)]
+    return any(abs(axes[i].dot(axes[j])) > 1e-4 for i, j in ((0, 1), (1, 2), (2, 0)))
+
+
+def node_emission(light):
+    """Strength and colour of the one emission that a light's nodes are; None where they are anything more."""
+    if not light.use_nodes or not light.node_tree:
+        return 1.0, (1.0, 1.0, 1.0)
+    emission = tree_source(light.node_tree, "OUTPUT_LIGHT")
+    if emission is None or emission.type != "EMISSION":
+        return None
+    strength, color = constant(emission, "Strength"), constant(emission, "Color")
+    return None if strength is None or color is None else (strength, color)
 
 
 def describe_world(world):

@@ -32,6 +32,11 @@ Vec3 colour(const LightInfo& light, double factor) {
   return Vec3(Vec3d(c[0], c[1], c[2]) * (light.energy * factor));
 }
 
+/// Since 4.5 the energy may be counted for each unit of a lamp's area.
+double unless_normalized(const LightInfo& light, double area) {
+  return size_or(light, "normalize", 1) != 0 ? 1.0 : area;
+}
+
 class Reader {
  public:
   explicit Reader(int version) : version_(version) {}
@@ -53,8 +58,9 @@ class Reader {
  private:
   /// P / 4 pi watts per steradian, whatever the size. Since 4.0 a lamp may be a real sphere.
   void read_point(const LightInfo& light, Lamp& lamp) const {
-    lamp.radiance = colour(light, 1 / (4 * pi));
     const double radius = size_or(light, "shadow_soft_size", 0);
+    lamp.radiance =
+        colour(light, unless_normalized(light, radius > 0 ? 4 * pi * radius * radius : 4) / (4 * pi));
     if (radius > 0) {
       const bool soft = size_or(light, "use_soft_falloff", version_ < 400 ? 1 : 0) != 0;
       lamp.kind = soft ? Lamp::Kind::disk : Lamp::Kind::sphere;
@@ -90,8 +96,8 @@ class Reader {
     lamp.radius = static_cast<float>(std::tan(half));
     const double r = lamp.radius;
     // Of all directions of the disk together; narrowed by the angle to the middle where it is a flat disk.
-    const double measure = lamp.flat_sun ? r * r : r * r / (1 + r * r);
-    lamp.radiance = colour(light, r > 0 ? 1 / (pi * measure) : 1.0);
+    const double measure = pi * (lamp.flat_sun ? r * r : r * r / (1 + r * r));
+    lamp.radiance = colour(light, r > 0 ? unless_normalized(light, measure) / measure : 1.0);
   }
 
   void read_area(const LightInfo& light, Lamp& lamp) const {
@@ -102,7 +108,8 @@ class Reader {
     lamp.u = column(light, 0) * static_cast<float>(size / 2);
     lamp.v = column(light, 1) * static_cast<float>((oblong ? size_or(light, "size_y", size) : size) / 2);
     const double area = lamp.area();
-    lamp.radiance = area > 0 ? colour(light, 1 / (area * (version_ < 400 ? 4 : pi))) : Vec3(0, 0, 0);
+    const double of_power = unless_normalized(light, area) / (version_ < 400 ? 4 : pi);
+    lamp.radiance = area > 0 ? colour(light, of_power / area) : Vec3(0, 0, 0);
     const double half = size_or(light, "spread", pi) / 2;
     if (half < pi / 2 * (1 - 1e-6)) {
       const double tangent = std::tan(std::max(half, 1e-3));
@@ -120,7 +127,6 @@ std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_ve
   const Reader reader(version_number(blender_version));
   std::vector<Lamp> lamps;
   for (const LightInfo& light : survey.lights) {
-    if (size_or(light, "visible_diffuse", 1) == 0) continue;
     const Lamp lamp = reader.read(light);
     if (lamp.radiance != Vec3(0, 0, 0)) lamps.push_back(lamp);
   }

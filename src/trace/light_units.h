@@ -10,7 +10,7 @@
 namespace rnmbake {
 
 /// The lamps that give light, in the survey's order, each in the units of that Blender ("3.4.1"):
-/// measured against bakes of each (docs/reference.md). Lamps that are invisible to diffuse rays give none.
+/// measured against bakes of each (docs/reference.md).
 [[nodiscard]] std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_version);
 
 }  // namespace rnmbake
