@@ -58,7 +58,8 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   const Place place = sites_.place(texel, sampler.next2());
   Here& here = here_[i];
   here.face = place.face;
-  here.position = place.position + place.face * (relative_gap * largest_coordinate(place.position));
+  here.gap = relative_gap * largest_coordinate(place.position);
+  here.position = place.position + place.face * here.gap;
   if (coefficients_ > 0) {
     here.normal = place.normal.normalized();
     here.tangent = (place.tangent - here.normal * place.tangent.dot(here.normal)).normalized();
@@ -101,7 +102,7 @@ void BlockGatherer::sample_lamps(std::size_t i, Sampler& sampler) {
   const LightSample light = scene_.lights().sample(here.position, here.face, sampler.next3());
   if (!(light.pdf > 0) || !(light.direction.dot(here.face) > 0)) return;
   ++rays_;
-  if (scene_.occluded({here.position, light.direction, light.distance * short_of_light})) return;
+  if (scene_.occluded({here.position, light.direction, short_of(light.distance, here.gap)})) return;
   const bool both = light.chance_hits && options_.chance_hits;
   const float share = both ? balance(light.pdf, lobes_[i].pdf(light.direction)) : 1;
   add(i, light.direction, light.radiance * (share / light.pdf));

@@ -43,6 +43,7 @@ class BlockGatherer {
   struct Here {
     Vec3 position, face;
     Vec3 tangent, bitangent, normal;  // orthonormal: the frame of SH
+    float gap = 0;                    // how far it is off the surface
     Vec3* sums = nullptr;             // of this texel in the tally
   };
   struct Found {

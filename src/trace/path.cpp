@@ -20,12 +20,12 @@ float largest(const Vec3& c) {
 /// Irradiance/pi at a vertex from one light that was chosen by chance.
 Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const PathOptions& options,
                    Sampler& sampler, std::int64_t& rays) {
-  const LightSample light = scene.lights().sample(vertex.position, vertex.normal, sampler.next3());
+  const LightSample light = scene.lights().sample(vertex.start(), vertex.normal, sampler.next3());
   const float cosine = vertex.normal.dot(light.direction);
   // Not from under the face, where chance would not find it either.
   if (!(light.pdf > 0) || !(cosine > 0) || !(vertex.face.dot(light.direction) > 0)) return Vec3(0);
   ++rays;
-  if (scene.occluded({vertex.start(light.direction), light.direction, light.distance * short_of_light})) {
+  if (scene.occluded({vertex.start(), light.direction, short_of(light.distance, vertex.gap)})) {
     return Vec3(0);
   }
   const float share = light.chance_hits && options.chance_hits ? balance(light.pdf, cosine * inv_pi) : 1;
@@ -57,18 +57,18 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     const Vec3 direction = cosine_direction(vertex.normal, sampler.next2());
     if (!(direction.dot(vertex.face) > 0)) break;  // under the face
     const float pdf = direction.dot(vertex.normal) * inv_pi;
-    const Ray ray{vertex.start(direction), direction, infinity};
+    const Ray ray{vertex.start(), direction, infinity};
     Hit hit;
     ++rays;
     if (!scene.intersect(ray, hit)) {
-      const float other = lights.world_pdf(vertex.position, vertex.normal, direction);
+      const float other = lights.world_pdf(ray.origin, vertex.normal, direction);
       sum += throughput * lights.world(direction) * chance_share(options, pdf, other);
       break;
     }
     const Vertex next = vertex_at(scene, ray, hit);
     if (scene.looks().emits(next.look)) {
       const float other =
-          lights.triangle_pdf(vertex.position, vertex.normal, hit.triangle, direction, hit.distance);
+          lights.triangle_pdf(ray.origin, vertex.normal, hit.triangle, direction, hit.distance);
       sum += throughput * scene.looks().emission(next.look, next.uv) * chance_share(options, pdf, other);
     }
     vertex = next;

@@ -5,12 +5,15 @@
 #include "trace/sampler.h"
 #include "trace/scene.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rnmbake {
 
-/// Rays to a light end just before it: a glowing triangle is geometry as well.
-inline constexpr float short_of_light = 1 - 1e-4F;
+/// Where a ray to a light ends: just before it, for a glowing triangle is geometry as well.
+[[nodiscard]] inline float short_of(float distance, float gap) {
+  return std::max(0.0F, distance * (1 - 1e-4F) - gap);
+}
 
 struct PathOptions {
   int bounces = -1;  // -1: no limit

@@ -64,10 +64,8 @@ struct Vertex {
   std::uint32_t triangle = 0, look = 0;
   bool back = false;  // met from behind
 
-  /// Where a ray in this direction starts: off the face, on the direction's side.
-  [[nodiscard]] Vec3 start(const Vec3& direction) const {
-    return position + face * (face.dot(direction) < 0 ? -gap : gap);
-  }
+  /// Where rays start: off the face, on the side that it was met from. Lights are looked at from there too.
+  [[nodiscard]] Vec3 start() const { return position + face * gap; }
 };
 
 [[nodiscard]] Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit);
