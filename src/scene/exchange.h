@@ -15,7 +15,8 @@ namespace rnmbake {
 /// Linear colours, row 0 on top: texel (x, y) has the UV (x + 0.5) / width, 1 - (y + 0.5) / height.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Vec3> texels;
+  std::vector<Vec3> texels;  // finite, not negative
+  std::string name = {};     // Blender's, for messages
 };
 
 /// A normal map of a material: what is read through `uv_layer` and decoded as 2c - 1, Y up.

@@ -23,14 +23,6 @@ void check_index(int index, std::size_t count, bool none, const std::string& own
 }
 
 void check_pictures(const Exchange& scene) {
-  for (std::size_t i = 0; i < scene.pictures.size(); ++i) {
-    const auto& texels = scene.pictures[i].texels;
-    const auto bad =
-        std::find_if_not(texels.begin(), texels.end(), [](const Vec3& c) { return is_light(c); });
-    if (bad == texels.end()) continue;
-    fail(ExitCode::invalid_input, "picture {}: texel {} is ({}, {}, {}); mend the picture and {}", i,
-         bad - texels.begin(), bad->x, bad->y, bad->z, remedy);
-  }
   for (std::size_t i = 0; i < scene.picture_uvs.size(); ++i) {
     const bool fine = std::all_of(scene.picture_uvs[i].begin(), scene.picture_uvs[i].end(),
                                   [](const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); });

@@ -42,11 +42,7 @@ Camera read_camera(const json& entry) {
 }
 
 void read_pictures(const json& content, Blob& data, Exchange& scene) {
-  for (const json& entry : content.at("pictures")) {
-    const std::size_t number = scene.pictures.size();
-    scene.pictures.push_back(
-        parse_picture(entry, data, [number] { return fmt::format("picture {}: ", number); }));
-  }
+  for (const json& entry : content.at("pictures")) scene.pictures.push_back(parse_picture(entry, data));
   for (const json& entry : content.at("picture_uvs")) {
     const std::size_t number = scene.picture_uvs.size();
     scene.picture_uvs.push_back(data.cut<Vec2>(entry, "offset", count_at(entry, "count"),

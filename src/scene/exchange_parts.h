@@ -16,8 +16,8 @@ namespace rnmbake {
 /// Whether indices, sizes and values fit each other. Throws Error(invalid_input) naming the owner.
 void check_exchange(const Exchange& scene);
 
-/// One picture from its entry. Throws Error(invalid_input) with `owner()` in front.
-[[nodiscard]] Picture parse_picture(const nlohmann::json& entry, Blob& data, const Owner& owner);
+/// One picture from its entry, every texel checked. Throws Error(invalid_input) naming it.
+[[nodiscard]] Picture parse_picture(const nlohmann::json& entry, Blob& data);
 
 /// The entry of a picture whose texels are appended to `data`, in the smallest form that loses nothing.
 [[nodiscard]] nlohmann::json store_picture(const Picture& picture, std::string& data);

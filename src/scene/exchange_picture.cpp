@@ -30,6 +30,17 @@ void read_texels(const json& entry, Blob& data, const Owner& owner, Picture& pic
     picture.texels[i] = Vec3(number(values[3 * i]), number(values[3 * i + 1]), number(values[3 * i + 2]));
 }
 
+void check_texels(const Picture& picture, const Owner& owner) {
+  const auto light = [](float value) { return value >= 0 && std::isfinite(value); };
+  const auto bad = std::find_if_not(picture.texels.begin(), picture.texels.end(),
+                                    [&](const Vec3& c) { return light(c.x) && light(c.y) && light(c.z); });
+  if (bad == picture.texels.end()) return;
+  const auto place = static_cast<int>(bad - picture.texels.begin());
+  fail(ExitCode::invalid_input,
+       "{}texel ({}, {}) is ({}, {}, {}); mend the picture, or the nodes that make it", owner(),
+       place % picture.width, place / picture.width, bad->x, bad->y, bad->z);
+}
+
 std::optional<float> as_byte(float value) {
   if (!(value >= 0 && value <= 1)) return std::nullopt;
   const float byte = std::round(value * 255);
@@ -58,13 +69,15 @@ void append_texels(const Picture& picture, std::string& data, Code code) {
 
 }  // namespace
 
-Picture parse_picture(const json& entry, Blob& data, const Owner& owner) {
+Picture parse_picture(const json& entry, Blob& data) {
+  const auto name = entry.at("name").get<std::string>();
+  const Owner owner = [&] { return "picture '" + name + "': "; };
   const std::size_t width = count_at(entry, "width"), height = count_at(entry, "height");
   if (width < 1 || height < 1 || width > largest_side || height > largest_side) {
     fail(ExitCode::invalid_input, "{}its size is {} x {}; a side has 1 to {} texels", owner(), width, height,
          largest_side);
   }
-  Picture picture{static_cast<int>(width), static_cast<int>(height), {}};
+  Picture picture{static_cast<int>(width), static_cast<int>(height), {}, name};
   const auto form = entry.at("form").get<std::string>();
   if (form == "u8") {
     read_texels<std::uint8_t>(entry, data, owner, picture, [](std::uint8_t v) { return v * byte_step; });
@@ -83,11 +96,13 @@ Picture parse_picture(const json& entry, Blob& data, const Owner& owner) {
     for (Vec3& c : picture.texels)
       c = Vec3(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z));
   }
+  check_texels(picture, owner);
   return picture;
 }
 
 json store_picture(const Picture& picture, std::string& data) {
-  json entry{{"width", picture.width}, {"height", picture.height}, {"offset", data.size()}};
+  json entry{
+      {"name", picture.name}, {"width", picture.width}, {"height", picture.height}, {"offset", data.size()}};
   if (every_channel(picture, [](float v) { return as_byte(v).has_value(); })) {
     entry["form"] = "u8";
     append_texels<std::uint8_t>(picture, data, [](float v) { return std::uint8_t(*as_byte(v)); });
