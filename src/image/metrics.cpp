@@ -30,12 +30,6 @@ void check_sizes(const FloatImage& picture, const FloatImage* other, bool channe
        other->channels());
 }
 
-bool counts(const std::vector<CountedWhere>& counted, std::size_t texel) {
-  return std::ranges::all_of(counted, [&](const CountedWhere& where) {
-    return where.mask == nullptr || where.mask->data()[texel] >= where.least;
-  });
-}
-
 /// 97.5 % point of Student's t: exact for 1 and 2 degrees of freedom, else Cornish and Fisher's expansion
 /// (within 1 % at 3, 0.1 % from 5 on).
 double student_quantile(double freedom) {
@@ -67,6 +61,12 @@ double percentile(std::vector<float>& values, double share) {
 }
 
 }  // namespace
+
+bool counts(const std::vector<CountedWhere>& counted, std::size_t texel) {
+  return std::ranges::all_of(counted, [&](const CountedWhere& where) {
+    return where.mask == nullptr || where.mask->data()[texel] >= where.least;
+  });
+}
 
 NoisyValue noisy_value(const ComparedPicture& picture, std::size_t index) {
   const double first = picture.value->data()[index];

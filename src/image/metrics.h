@@ -30,6 +30,7 @@ struct CountedWhere {
   const FloatImage* mask = nullptr;
   float least = 0.5F;
 };
+[[nodiscard]] bool counts(const std::vector<CountedWhere>& counted, std::size_t texel);
 
 /// In the pictures' units. An error is candidate minus reference; every channel counts alike.
 struct PictureMetrics {

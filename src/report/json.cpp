@@ -1,7 +1,6 @@
 #include "base/version.h"
+#include "report/document.h"
 #include "report/write.h"
-
-#include <nlohmann/json.hpp>
 
 namespace rnmbake {
 namespace {
@@ -137,29 +136,32 @@ json describe(const KeyValues& values) {
 
 }  // namespace
 
+nlohmann::ordered_json report_document(const Report& report) {
+  return {{"schema_version", report_schema_version},
+          {"rnmbake", version},
+          {"title", report.title},
+          {"finding", report.finding},
+          {"candidate", report.candidate_label},
+          {"reference", report.reference_label},
+          {"command", report.command},
+          {"settings", describe(report.settings)},
+          {"versions", describe(report.versions)},
+          {"scene", describe_scene(report)},
+          {"objects", describe_all(report.objects)},
+          {"candidate_only", report.candidate_only},
+          {"reference_only", report.reference_only},
+          {"notes", report.notes},
+          {"decompositions", describe_all(report.decompositions)},
+          {"study", describe_all(report.study.points)},
+          {"views", describe_all(report.views)},
+          {"thresholds",
+           {{"limits", describe_all(report.thresholds.thresholds)},
+            {"exceeded", describe_all(report.thresholds.exceeded)},
+            {"passed", report.thresholds.exceeded.empty()}}}};
+}
+
 std::string to_json(const Report& report) {
-  const json document{{"schema_version", report_schema_version},
-                      {"rnmbake", version},
-                      {"title", report.title},
-                      {"finding", report.finding},
-                      {"candidate", report.candidate_label},
-                      {"reference", report.reference_label},
-                      {"command", report.command},
-                      {"settings", describe(report.settings)},
-                      {"versions", describe(report.versions)},
-                      {"scene", describe_scene(report)},
-                      {"objects", describe_all(report.objects)},
-                      {"candidate_only", report.candidate_only},
-                      {"reference_only", report.reference_only},
-                      {"notes", report.notes},
-                      {"decompositions", describe_all(report.decompositions)},
-                      {"study", describe_all(report.study.points)},
-                      {"views", describe_all(report.views)},
-                      {"thresholds",
-                       {{"limits", describe_all(report.thresholds.thresholds)},
-                        {"exceeded", describe_all(report.thresholds.exceeded)},
-                        {"passed", report.thresholds.exceeded.empty()}}}};
-  return document.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  return report_document(report).dump(1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace rnmbake

@@ -9,13 +9,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr int kSmallest = 16, kLargest = 256;
-constexpr std::size_t kMostTexels = 1U << 24;  // of all maps of a report
-
-bool counts(const std::vector<CountedWhere>& counted, std::size_t texel) {
-  return std::ranges::all_of(counted, [&](const CountedWhere& where) {
-    return where.mask == nullptr || where.mask->data()[texel] >= where.least;
-  });
-}
+constexpr std::size_t kMostTexels = 1U << 22;  // of all maps of a report: about 30 MB of page
 
 struct Mean {
   double sum = 0;

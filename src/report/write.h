@@ -1,4 +1,4 @@
-// report/write.h - a report as a page to read, as JSON and as CSV for programs (docs/report.md).
+// report/write.h - a report as a page and a table to read, as JSON and as CSV for programs (docs/report.md).
 #pragma once
 
 #include "report/comparison.h"
@@ -11,6 +11,9 @@ namespace rnmbake {
 
 /// Raised when a reader of the old form would misunderstand the new one.
 inline constexpr int report_schema_version = 1;
+
+/// A table to read in a terminal, relative to the reference's mean, and the finding.
+[[nodiscard]] std::string to_text(const Report& report);
 
 /// All numbers, no pictures: docs/report.schema.json. Numbers that are not finite become null.
 [[nodiscard]] std::string to_json(const Report& report);

@@ -24,6 +24,7 @@ OWNED = {
     "embree": {"trace"},
     "tbb/": {"trace", "ssbump"},
     "xxhash.h": {"base"},
+    "zlib.h": {"report"},
 }
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 IMPORT_BPY = re.compile(r"\s*(import|from)\s+(bpy|mathutils|bmesh)\b")
