@@ -1,0 +1,26 @@
+# Fuzz targets (clang's libFuzzer): ./dev fuzz. Everything is then built for them: address and undefined-behaviour
+# sanitizers, coverage for the fuzzer.
+if(NOT RNMBAKE_FUZZ)
+  function(rnm_fuzz_targets)
+  endfunction()
+  return()
+endif()
+
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  message(FATAL_ERROR "RNMBAKE_FUZZ needs clang: -DCMAKE_CXX_COMPILER=clang++")
+endif()
+add_compile_options(-fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow
+                    -fno-sanitize-recover=all -fno-omit-frame-pointer)
+add_link_options(-fsanitize=address,undefined)
+
+function(rnm_fuzz_targets)
+  # The one file of the trace room that reads a scene; the rest of it needs Embree.
+  add_executable(exchange_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/exchange_fuzz.cpp
+                                                ${CMAKE_SOURCE_DIR}/src/trace/triangles.cpp)
+  target_link_options(exchange_fuzz PRIVATE -fsanitize=fuzzer)
+  add_executable(exchange_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/exchange_seeds.cpp)
+  foreach(TARGET exchange_fuzz exchange_seeds)
+    target_include_directories(${TARGET} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    target_link_libraries(${TARGET} PRIVATE scene rnm_warnings)
+  endforeach()
+endfunction()
