@@ -51,7 +51,9 @@ void add_object(const Exchange& scene, std::size_t object_index, Triangles& out)
 
 Triangles world_triangles(const Exchange& scene) {
   Triangles triangles;
-  for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) add_object(scene, i, triangles);
+  for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
+    if (scene.takes_part(i)) add_object(scene, i, triangles);
+  }
   return triangles;
 }
 
