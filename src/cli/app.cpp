@@ -5,6 +5,7 @@
 #include "base/names.h"
 #include "base/version.h"
 #include "cli/bake.h"
+#include "cli/compare.h"
 #include "cli/decode.h"
 #include "cli/doctor.h"
 #include "cli/export.h"
@@ -68,6 +69,11 @@ constexpr const char* about_reference =
     "`bake --materials lambert` bakes; files, names and layers are those of a bake, so every tool takes\n"
     "either. A .rnmscene made by `rnmbake export` needs no Blender.";
 
+constexpr const char* about_compare =
+    "\n\nA and B are folders that `rnmbake bake` or `rnmbake reference` wrote, or two lightmaps. Errors are A\n"
+    "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
+    "confidence interval. Exit code 7 says that a limit of --fail-above was exceeded.";
+
 struct Command {
   const char* name;
   std::function<int()> (*add)(CLI::App&);
@@ -80,6 +86,7 @@ const std::vector<Command>& commands() {
       {"inspect", add_inspect_command, about_inspect},
       {"export", add_export_command, about_export},
       {"reference", add_reference_command, about_reference},
+      {"compare", add_compare_command, about_compare},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
   };
