@@ -42,24 +42,25 @@ SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& 
                n3 = -x0_ / std::sqrt(z * z + double(x0_) * x0_);
   const double g0 = std::acos(-n0 * n1), g1 = std::acos(-n1 * n2);
   const double g2 = std::acos(-n2 * n3), g3 = std::acos(-n3 * n0);
-  b0_ = static_cast<float>(n0);
-  b1_ = static_cast<float>(n2);
-  k_ = static_cast<float>(2 * pi - g2 - g3);
-  solid_angle_ = static_cast<float>(g0 + g1 + g2 + g3 - 2 * pi);
+  b0_ = n0;
+  b1_ = n2;
+  k_ = 2 * pi - g2 - g3;
+  solid_angle_ = g0 + g1 + g2 + g3 - 2 * pi;
   usable_ = solid_angle_ > smallest;
 }
 
 Vec3 SeenRectangle::place(const Vec2& u) const {
-  const float au = u.x * solid_angle_ + k_;
-  const float fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
-  const float cu = std::clamp(std::copysign(1 / std::sqrt(fu * fu + b0_ * b0_), fu), -1.0F, 1.0F);
-  const float side = std::sqrt(std::max(1 - cu * cu, 1e-12F));
-  const float x = std::clamp(-(cu * z0_) / side, x0_, x1_);
-  const float d = std::sqrt(x * x + z0_ * z0_);
-  const float h0 = y0_ / std::sqrt(d * d + y0_ * y0_), h1 = y1_ / std::sqrt(d * d + y1_ * y1_);
-  const float h = h0 + u.y * (h1 - h0);
-  const float y = h * h < 1 - 1e-6F ? h * d / std::sqrt(1 - h * h) : y1_;
-  return point_ + x_ * x + y_ * y + z_ * z0_;
+  const double z0 = z0_, y0 = y0_, y1 = y1_;
+  const double au = u.x * solid_angle_ + k_;
+  const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
+  const double cu = std::clamp(std::copysign(1 / std::sqrt(fu * fu + b0_ * b0_), fu), -1.0, 1.0);
+  const double side = std::sqrt(std::max(1 - cu * cu, 1e-30));
+  const double x = std::clamp(-(cu * z0) / side, double(x0_), double(x1_));
+  const double d2 = x * x + z0 * z0;
+  const double h0 = y0 / std::sqrt(d2 + y0 * y0), h1 = y1 / std::sqrt(d2 + y1 * y1);
+  const double h = h0 + u.y * (h1 - h0), rest = 1 - h * h;
+  const double y = rest > 0 ? std::clamp(h * std::sqrt(d2 / rest), y0, y1) : (h > 0 ? y1 : y0);
+  return point_ + x_ * static_cast<float>(x) + y_ * static_cast<float>(y) + z_ * z0_;
 }
 
 }  // namespace rnmbake

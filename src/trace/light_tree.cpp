@@ -1,135 +1,103 @@
 #include "trace/light_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace rnmbake {
 namespace {
 
-constexpr std::size_t most_in_leaf = LightTree::few_lights;
 constexpr float slack = 1e-3F;         // cosines may be off by rounding: rather too much than nothing
-constexpr float horizon_share = 0.3F;  // of a light at the horizon; see light_importance()
+constexpr float horizon_share = 0.3F;  // of a light at the horizon: normals that tilt see light there well
 
 /// cos(max(0, a - b)) from the angles' cosines and sines.
-float cosine_between(float cos_a, float sin_a, float cos_b, float sin_b) {
-  return cos_a > cos_b ? 1.0F : cos_a * cos_b + sin_a * sin_b;
+inline float cosine_between(float cos_a, float sin_a, float cos_b, float sin_b) {
+  const float turned = cos_a * cos_b + sin_a * sin_b;
+  return cos_a > cos_b ? 1.0F : turned;
 }
 
-float sine_of(float cosine) {
-  return std::sqrt(std::max(1 - cosine * cosine, 0.0F));
-}
-
-/// Keeps `u` even after it chose [from, to).
-void reuse(float& u, float from, float to) {
-  u = std::clamp((u - from) / (to - from), 0.0F, 0.99999994F);
+inline float sine_of(float cosine) {
+  const float rest = 1 - cosine * cosine;
+  return std::sqrt(rest > 0 ? rest : 0.0F);
 }
 
 }  // namespace
 
-float light_importance(const LightBounds& bounds, const Vec3& point, const Vec3& normal) {
-  const Vec3 way = point - (bounds.low + bounds.high) * 0.5F;
-  const float radius2 = (bounds.high - bounds.low).length2() / 4, distance2 = way.length2();
-  const float near2 = std::max({distance2, radius2, 1e-20F});
-  // The directions from the point to the bounds lie in this cone.
-  const bool inside = distance2 <= radius2;
-  const Vec3 out = inside ? Vec3(0, 0, 0) : way / std::sqrt(distance2);
-  const float sin_b2 = inside ? 1.0F : radius2 / distance2;
-  const float sin_b = std::sqrt(sin_b2), cos_b = inside ? -1.0F : std::sqrt(1 - sin_b2);
+/// Returns the sum. For each lane an upper bound over its sphere and its cone: power x cosine at the light x
+/// softened cosine at the surface / distance^2. Free of branches, so that the compiler takes several lanes at
+/// a time.
+float LightTree::weigh(const Node& node, const Vec3& point, const Vec3& normal, Weights& weights) {
+  const float horizon = normal == Vec3(0, 0, 0) ? 1.0F : horizon_share;
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    const float wx = point.x - node.x[i], wy = point.y - node.y[i], wz = point.z - node.z[i];
+    const float distance2 = wx * wx + wy * wy + wz * wz, radius2 = node.radius2[i];
+    const bool inside = distance2 <= radius2;
+    const float scale = 1 / std::sqrt(distance2 > 1e-30F ? distance2 : 1e-30F);
+    // The directions from the point to the sphere lie in this cone.
+    const float sin_b2 = inside ? 1.0F : radius2 * scale * scale;
+    const float sin_b = std::sqrt(sin_b2), cos_b = inside ? -1.0F : std::sqrt(sin_b2 < 1 ? 1 - sin_b2 : 0.0F);
 
-  float leaving = 1;
-  if (!inside) {
-    float along = bounds.axis.dot(out);
-    if (bounds.two_sided) along = std::abs(along);
-    const float sin_n = sine_of(bounds.normals), sin_along = sine_of(along);
-    const float off_axis = cosine_between(along, sin_along, bounds.normals, sin_n);
-    leaving = cosine_between(off_axis, sine_of(off_axis), cos_b, sin_b);
-    if (leaving < bounds.emission - slack) return 0;
-    leaving = std::max(leaving, slack);
+    const float towards = (node.axis_x[i] * wx + node.axis_y[i] * wy + node.axis_z[i] * wz) * scale;
+    const float along = node.two_sided[i] > 0 ? std::abs(towards) : towards;
+    const float off_axis = cosine_between(along, sine_of(along), node.cos_normals[i], node.sin_normals[i]);
+    const float leaving = cosine_between(off_axis, sine_of(off_axis), cos_b, sin_b);
+    const float least = leaving > slack ? leaving : slack;
+    const float sent = inside ? 1.0F : leaving < node.emission[i] - slack ? 0.0F : least;
+
+    const float facing = -(normal.x * wx + normal.y * wy + normal.z * wz) * scale;
+    const float nearest = cosine_between(facing, sine_of(facing), cos_b, sin_b);
+    const float above = horizon + (1 - horizon) * (nearest > 0 ? nearest : 0.0F);
+    const float received = inside ? 1.0F : nearest < -slack ? 0.0F : above;
+
+    const float further = distance2 > radius2 ? distance2 : radius2;
+    weights[i] = node.power[i] * sent * received / (further > 1e-20F ? further : 1e-20F);
   }
-  float arriving = 1;
-  if (!inside && normal != Vec3(0, 0, 0)) {
-    const float along = -normal.dot(out);
-    const float nearest = cosine_between(along, sine_of(along), cos_b, sin_b);
-    if (nearest < -slack) return 0;
-    arriving = horizon_share + (1 - horizon_share) * std::max(nearest, 0.0F);
-  }
-  return bounds.power * leaving * arriving / near2;
+  float sum = 0;
+  for (std::uint32_t i = 0; i < lanes; ++i) sum += weights[i];
+  return sum;
 }
 
 float LightTree::importance(const Vec3& point, const Vec3& normal) const {
-  if (empty()) return 0;
-  const Node& root = nodes_[0];
-  if (root.count == 0) {
-    return light_importance(nodes_[1].bounds, point, normal) +
-           light_importance(nodes_[root.first].bounds, point, normal);
-  }
-  float sum = 0;
-  for (std::uint32_t i = 0; i < root.count; ++i) sum += light_importance(lights_[i], point, normal);
-  return sum;
+  Weights weights;
+  return empty() ? 0.0F : weigh(nodes_[0], point, normal, weights);
 }
 
 LightTree::Choice LightTree::choose(const Vec3& point, const Vec3& normal, float& u) const {
   if (empty()) return {};
+  Weights weights;
   float probability = 1;
-  std::uint32_t at = 0;
-  while (nodes_[at].count == 0) {
-    const float first = light_importance(nodes_[at + 1].bounds, point, normal);
-    const float second = light_importance(nodes_[nodes_[at].first].bounds, point, normal);
-    if (!(first + second > 0)) return {};
-    const float share = first / (first + second);
-    const bool second_one = u >= share;
-    if (second_one)
-      reuse(u, share, 1);
-    else
-      reuse(u, 0, share);
-    probability *= second_one ? 1 - share : share;
-    at = second_one ? nodes_[at].first : at + 1;
-  }
-  const Node& leaf = nodes_[at];
-  std::array<float, most_in_leaf> weights{};
-  float sum = 0;
-  std::uint32_t chosen = 0;
-  for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    weights[i] = light_importance(lights_[leaf.first + i], point, normal);
-    sum += weights[i];
-    if (weights[i] > 0) chosen = i;  // the last one that can be, should rounding run past the end
-  }
-  if (!(sum > 0)) return {};
-  float below = 0;
-  for (std::uint32_t i = 0; i <= chosen; ++i) {
-    const float above = below + weights[i] / sum;
-    if (u < above || i == chosen) {
-      reuse(u, below, above);
-      return {indices_[leaf.first + i], probability * (weights[i] / sum)};
+  for (std::uint32_t at = 0;;) {
+    const float sum = weigh(nodes_[at], point, normal, weights);
+    if (!(sum > 0)) return {};
+    // The lane in which u x sum falls; the last with any weight, should rounding run past the end.
+    float left = u * sum;
+    std::uint32_t lane = 0, fallback = lanes;
+    for (; lane < lanes; ++lane) {
+      if (weights[lane] <= 0) continue;
+      if (left < weights[lane]) break;
+      left -= weights[lane];
+      fallback = lane;
     }
-    below = above;
+    if (lane == lanes) {
+      lane = fallback;
+      left = weights[lane];
+    }
+    u = std::clamp(left / weights[lane], 0.0F, 0.99999994F);
+    probability *= weights[lane] / sum;
+    const std::uint32_t child = nodes_[at].child[lane];
+    if ((child & light_bit) != 0) return {child & ~light_bit, probability};
+    at = child;
   }
-  return {};
 }
 
 float LightTree::probability(const Vec3& point, const Vec3& normal, std::uint32_t light) const {
-  const Place& place = places_[light];
-  std::uint64_t trail = place.trail;
+  Weights weights;
   float probability = 1;
-  std::uint32_t at = 0;
-  for (; nodes_[at].count == 0; trail >>= 1) {
-    const float first = light_importance(nodes_[at + 1].bounds, point, normal);
-    const float second = light_importance(nodes_[nodes_[at].first].bounds, point, normal);
-    if (!(first + second > 0)) return 0;
-    const float share = first / (first + second);
-    const bool second_one = (trail & 1) != 0;
-    probability *= second_one ? 1 - share : share;
-    at = second_one ? nodes_[at].first : at + 1;
+  for (Place place = places_[light];; place = parents_[place.node]) {
+    const float sum = weigh(nodes_[place.node], point, normal, weights);
+    if (!(weights[place.lane] > 0)) return 0;
+    probability *= weights[place.lane] / sum;
+    if (place.node == 0) return probability;
   }
-  const Node& leaf = nodes_[at];
-  float sum = 0, own = 0;
-  for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    const float weight = light_importance(lights_[leaf.first + i], point, normal);
-    sum += weight;
-    if (leaf.first + i == place.slot) own = weight;
-  }
-  return sum > 0 ? probability * (own / sum) : 0.0F;
 }
 
 }  // namespace rnmbake

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,20 +20,14 @@ struct LightBounds {
   bool two_sided = false;  // emits along -axis, too
 };
 
-/// About the irradiance that it gives: an upper bound for the direction and the angles, softened towards the
-/// horizon, because normals that tilt see light there well. 0 only where nothing can arrive. `normal` as in
-/// Lights.
-[[nodiscard]] float light_importance(const LightBounds& bounds, const Vec3& point, const Vec3& normal);
-
 class LightTree {
  public:
-  static constexpr std::uint32_t few_lights = 8;  // so few are weighed one by one
-
   LightTree() = default;
   explicit LightTree(const std::vector<LightBounds>& lights);
 
-  [[nodiscard]] bool empty() const { return lights_.empty(); }
-  /// Of all lights together.
+  [[nodiscard]] bool empty() const { return nodes_.empty(); }
+
+  /// About the irradiance that all lights give together; 0 where nothing can arrive. `normal` as in Lights.
   [[nodiscard]] float importance(const Vec3& point, const Vec3& normal) const;
 
   struct Choice {
@@ -44,22 +39,30 @@ class LightTree {
   /// With which choose() finds that light.
   [[nodiscard]] float probability(const Vec3& point, const Vec3& normal, std::uint32_t light) const;
 
+  static constexpr std::uint32_t lanes = 8;
+
  private:
-  struct Node {
-    LightBounds bounds;
-    std::uint32_t first = 0;  // leaf: of lights_; else the second child, the first one follows its parent
-    std::uint32_t count = 0;  // of a leaf's lights; 0: not a leaf
+  /// Up to eight lights or groups side by side, so that they are weighed together. A lane without power is
+  /// empty.
+  struct alignas(32) Node {
+    std::array<float, lanes> x{}, y{}, z{}, radius2{};                  // the sphere around it
+    std::array<float, lanes> axis_x{}, axis_y{}, axis_z{};              // of its cone of normals,
+    std::array<float, lanes> cos_normals{}, sin_normals{}, emission{};  // as in LightBounds
+    std::array<float, lanes> power{}, two_sided{};                      // 1 or 0
+    std::array<std::uint32_t, lanes> child{};                           // a node; with `light_bit`, a light
   };
   struct Place {
-    std::uint64_t trail = 0;  // the turns from the root, lowest bit first: 1 for the second child
-    std::uint32_t slot = 0;   // in lights_
+    std::uint32_t node = 0, lane = 0;
   };
+  using Weights = std::array<float, lanes>;
+  static constexpr std::uint32_t light_bit = std::uint32_t(1) << 31;
   friend class LightTreeBuilder;
 
-  std::vector<Node> nodes_;
-  std::vector<LightBounds> lights_;     // in the order of the leaves
-  std::vector<std::uint32_t> indices_;  // [lights_] -> caller's index
-  std::vector<Place> places_;           // [caller's index]
+  static float weigh(const Node& node, const Vec3& point, const Vec3& normal, Weights& weights);
+
+  std::vector<Node> nodes_;     // the root first
+  std::vector<Place> parents_;  // [nodes_]; of the root: itself
+  std::vector<Place> places_;   // [lights]
 };
 
 }  // namespace rnmbake

@@ -10,9 +10,10 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::uint32_t leaf_lights = 4;  // as dear as the two levels they save
 constexpr int bins = 12;
-constexpr int deepest_guided = 30;  // below, halves of the same count: 2^34 more lights fit into a trail
+constexpr int deepest_guided = 40;  // below, halves of the same count
+constexpr std::uint32_t most_with_cones =
+    4096;  // so many shine everywhere, and their cones take long to join
 
 /// The cone of normals around two cones.
 void join_cones(LightBounds& a, const LightBounds& b) {
@@ -46,12 +47,12 @@ void join_cones(LightBounds& a, const LightBounds& b) {
   a.normals = std::cos(wide);
 }
 
-void join(LightBounds& a, const LightBounds& b) {
+void join(LightBounds& a, const LightBounds& b, bool with_cones) {
   for (int k = 0; k < 3; ++k) {
     a.low[k] = std::min(a.low[k], b.low[k]);
     a.high[k] = std::max(a.high[k], b.high[k]);
   }
-  join_cones(a, b);
+  if (with_cones) join_cones(a, b);
   a.emission = std::min(a.emission, b.emission);
   a.power += b.power;
 }
@@ -82,53 +83,54 @@ class LightTreeBuilder {
   LightTreeBuilder(LightTree& tree, const std::vector<LightBounds>& lights) : tree_(tree), lights_(lights) {
     order_.resize(lights.size());
     std::iota(order_.begin(), order_.end(), 0U);
+    groups_.reserve(2 * lights.size());
     tree_.places_.resize(lights.size());
-    tree_.nodes_.reserve(lights.size());
-    build(0, static_cast<std::uint32_t>(lights.size()), 0, 0);
-    for (std::uint32_t slot = 0; slot < order_.size(); ++slot) {
-      tree_.lights_.push_back(lights[order_[slot]]);
-      tree_.places_[order_[slot]].slot = slot;
-    }
-    tree_.indices_ = std::move(order_);
+    widen(halve(0, static_cast<std::uint32_t>(lights.size()), 0), {});
   }
 
  private:
+  /// One light, or two groups.
+  struct Group {
+    LightBounds bounds;
+    std::uint32_t first = 0, second = 0;  // groups; of a light: itself, and `single`
+  };
+  static constexpr std::uint32_t single = ~std::uint32_t(0);
+
   struct Bin {
     LightBounds bounds;
     std::uint32_t count = 0;
-    void add(const LightBounds& other, std::uint32_t lights) {
+    void add(const LightBounds& other, std::uint32_t lights, bool with_cones) {
       if (lights == 0) return;
       if (count == 0)
         bounds = other;
       else
-        join(bounds, other);
+        join(bounds, other, with_cones);
       count += lights;
     }
   };
 
+  struct Split {
+    double cost = std::numeric_limits<double>::infinity();
+    int axis = -1, bin = 0;
+  };
+
   static Vec3 centre(const LightBounds& bounds) { return (bounds.low + bounds.high) * 0.5F; }
 
-  std::uint32_t build(std::uint32_t first, std::uint32_t last, std::uint64_t trail, int depth) {
-    const auto at = static_cast<std::uint32_t>(tree_.nodes_.size());
-    tree_.nodes_.emplace_back();
-    LightBounds bounds = lights_[order_[first]];
-    for (std::uint32_t i = first + 1; i < last; ++i) join(bounds, lights_[order_[i]]);
-    tree_.nodes_[at].bounds = bounds;
-    const std::uint32_t count = last - first;
-    if (count <= (depth == 0 ? LightTree::few_lights : leaf_lights)) {
-      tree_.nodes_[at].first = first;
-      tree_.nodes_[at].count = count;
-      for (std::uint32_t i = first; i < last; ++i) tree_.places_[order_[i]].trail = trail;
-      return at;
+  std::uint32_t halve(std::uint32_t first, std::uint32_t last, int depth) {
+    if (last - first == 1) {
+      groups_.push_back({lights_[order_[first]], order_[first], single});
+      return static_cast<std::uint32_t>(groups_.size()) - 1;
     }
-    const std::uint32_t middle = split(first, last, depth);
-    build(first, middle, trail, depth + 1);
-    const std::uint32_t second = build(middle, last, trail | (std::uint64_t(1) << depth), depth + 1);
-    tree_.nodes_[at].first = second;
-    return at;
+    const std::uint32_t middle = divide(first, last, depth);
+    const std::uint32_t one = halve(first, middle, depth + 1), other = halve(middle, last, depth + 1);
+    Group group{groups_[one].bounds, one, other};
+    join(group.bounds, groups_[other].bounds, true);
+    groups_.push_back(group);
+    return static_cast<std::uint32_t>(groups_.size()) - 1;
   }
 
-  std::uint32_t split(std::uint32_t first, std::uint32_t last, int depth) {
+  /// Orders [first, last) into two halves and returns where the second begins.
+  std::uint32_t divide(std::uint32_t first, std::uint32_t last, int depth) {
     Vec3 low = centre(lights_[order_[first]]), high = low;
     for (std::uint32_t i = first; i < last; ++i) {
       const Vec3 c = centre(lights_[order_[i]]);
@@ -137,19 +139,16 @@ class LightTreeBuilder {
         high[k] = std::max(high[k], c[k]);
       }
     }
-    double best = std::numeric_limits<double>::infinity();
-    int best_axis = -1, best_bin = 0;
+    Split best;
     for (int axis = 0; axis < 3 && depth < deepest_guided; ++axis) {
-      if (!(high[axis] > low[axis])) continue;
-      consider(first, last, low, high, axis, best, best_axis, best_bin);
+      if (high[axis] > low[axis]) consider(first, last, low, high, axis, best);
     }
-    const auto begin = order_.begin();
-    if (best_axis >= 0) {
+    if (best.axis >= 0) {
+      const auto begin = order_.begin();
       const auto middle = std::partition(begin + first, begin + last, [&](std::uint32_t i) {
-        return bin_of(centre(lights_[i])[best_axis], low[best_axis], high[best_axis]) <= best_bin;
+        return bin_of(centre(lights_[i])[best.axis], low[best.axis], high[best.axis]) <= best.bin;
       });
-      const auto index = static_cast<std::uint32_t>(middle - begin);
-      if (index > first && index < last) return index;
+      return static_cast<std::uint32_t>(middle - begin);
     }
     return first + (last - first) / 2;
   }
@@ -159,34 +158,80 @@ class LightTreeBuilder {
   }
 
   void consider(std::uint32_t first, std::uint32_t last, const Vec3& low, const Vec3& high, int axis,
-                double& best, int& best_axis, int& best_bin) {
+                Split& best) {
+    const bool with_cones = last - first <= most_with_cones;
     std::array<Bin, bins> filled{};
     for (std::uint32_t i = first; i < last; ++i) {
       const LightBounds& light = lights_[order_[i]];
-      filled[bin_of(centre(light)[axis], low[axis], high[axis])].add(light, 1);
+      filled[bin_of(centre(light)[axis], low[axis], high[axis])].add(light, 1, with_cones);
     }
     std::array<double, bins> after{};  // cost of all bins past each
     Bin right;
     for (int b = bins - 1; b > 0; --b) {
-      right.add(filled[b].bounds, filled[b].count);
+      right.add(filled[b].bounds, filled[b].count, with_cones);
       after[b - 1] = right.count > 0 ? cost(right.bounds, high - low, axis) : 0.0;
     }
     Bin left;
     for (int b = 0; b + 1 < bins; ++b) {
-      left.add(filled[b].bounds, filled[b].count);
+      left.add(filled[b].bounds, filled[b].count, with_cones);
       if (left.count == 0 || left.count == last - first) continue;
       const double total = cost(left.bounds, high - low, axis) + after[b];
-      if (total < best) {
-        best = total;
-        best_axis = axis;
-        best_bin = b;
-      }
+      if (total < best.cost) best = {total, axis, b};
     }
+  }
+
+  /// Makes a node of the groups below `group`: of the widest ones, opened until the lanes are full.
+  std::uint32_t widen(std::uint32_t group, LightTree::Place parent) {
+    std::vector<std::uint32_t> open{group};
+    while (open.size() < LightTree::lanes) {
+      const auto widest = std::max_element(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return spread_of(groups_[a]) < spread_of(groups_[b]);
+      });
+      const Group& opened = groups_[*widest];
+      if (opened.second == single) break;
+      *widest = opened.first;
+      open.push_back(opened.second);
+    }
+    const auto at = static_cast<std::uint32_t>(tree_.nodes_.size());
+    tree_.nodes_.emplace_back();
+    tree_.parents_.push_back(parent);
+    for (std::uint32_t lane = 0; lane < open.size(); ++lane) {
+      fill(tree_.nodes_[at], lane, groups_[open[lane]].bounds);
+      const Group& below = groups_[open[lane]];
+      if (below.second == single) tree_.places_[below.first] = {at, lane};
+      const std::uint32_t child =
+          below.second == single ? below.first | LightTree::light_bit : widen(open[lane], {at, lane});
+      tree_.nodes_[at].child[lane] = child;
+    }
+    return at;
+  }
+
+  /// Of a single light: less than of any group.
+  static double spread_of(const Group& group) {
+    if (group.second == single) return -1;
+    return double(group.bounds.power) * (group.bounds.high - group.bounds.low).length();
+  }
+
+  static void fill(LightTree::Node& node, std::uint32_t lane, const LightBounds& bounds) {
+    const Vec3 middle = centre(bounds);
+    node.x[lane] = middle.x;
+    node.y[lane] = middle.y;
+    node.z[lane] = middle.z;
+    node.radius2[lane] = (bounds.high - bounds.low).length2() / 4 * 1.00001F;  // corners round
+    node.axis_x[lane] = bounds.axis.x;
+    node.axis_y[lane] = bounds.axis.y;
+    node.axis_z[lane] = bounds.axis.z;
+    node.cos_normals[lane] = bounds.normals;
+    node.sin_normals[lane] = std::sqrt(std::max(1 - bounds.normals * bounds.normals, 0.0F));
+    node.emission[lane] = bounds.emission;
+    node.power[lane] = bounds.power;
+    node.two_sided[lane] = bounds.two_sided ? 1.0F : 0.0F;
   }
 
   LightTree& tree_;
   const std::vector<LightBounds>& lights_;
   std::vector<std::uint32_t> order_;
+  std::vector<Group> groups_;
 };
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) {
