@@ -12,6 +12,7 @@
 #include "cli/help_format.h"
 #include "cli/inspect.h"
 #include "cli/reference.h"
+#include "cli/validate.h"
 #include "pipeline/workspace.h"
 
 #include <algorithm>
@@ -69,6 +70,12 @@ constexpr const char* about_reference =
     "`bake --materials lambert` bakes; files, names and layers are those of a bake, so every tool takes\n"
     "either. A .rnmscene made by `rnmbake export` needs no Blender.";
 
+constexpr const char* about_validate =
+    "\n\nBakes the scene with both recipes, twice each so that the noise is known, traces the truth, and\n"
+    "traces the published recipe's faults one after the other. What comes out is one page, DIR/report.html,\n"
+    "in which every part of the error has a name, a number and a confidence interval. --samples is the sum\n"
+    "over the two halves of a bake.";
+
 constexpr const char* about_compare =
     "\n\nA and B are folders that `rnmbake bake` or `rnmbake reference` wrote, or two lightmaps. Errors are A\n"
     "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
@@ -86,6 +93,7 @@ const std::vector<Command>& commands() {
       {"inspect", add_inspect_command, about_inspect},
       {"export", add_export_command, about_export},
       {"reference", add_reference_command, about_reference},
+      {"validate", add_validate_command, about_validate},
       {"compare", add_compare_command, about_compare},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},

@@ -1,0 +1,55 @@
+#include "cli/command_line.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+namespace rnmbake {
+namespace {
+
+std::string text_of(const SettingValue& value) {
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value))
+    return fmt::format("{}", fmt::join(*list, ","));
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  return fmt::format("{}", std::get<double>(value));
+}
+
+std::string flag_of(const Given& given) {
+  if (const auto* on = std::get_if<bool>(&given.value))
+    return *on ? given.setting->flag() : fmt::format("--no-{}", given.setting->flag().substr(2));
+  return fmt::format("{} {}", given.setting->flag(), shell_word(text_of(given.value)));
+}
+
+/// "hall.toml:12" -> "hall.toml".
+std::string project_of(const ResolvedConfig& config) {
+  for (const Given& given : config.values()) {
+    if (given.source == SettingSource::project) return given.where.substr(0, given.where.rfind(':'));
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& word) {
+  const bool harmless = !word.empty() && word.find_first_not_of(
+                                             "abcdefghijklmnopqrstuvwxyz"
+                                             "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                             "0123456789_-./=,%:+@") == std::string::npos;
+  if (harmless) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+std::string command_line(const std::string& command, const ResolvedConfig& config) {
+  const std::string project = project_of(config);
+  std::string line = fmt::format("rnmbake {} {}", command,
+                                 shell_word(project.empty() ? config.globals.scene.file.string() : project));
+  for (const Given& given : config.values()) {
+    const bool is_scene = given.setting->key == "file" && project.empty();
+    if (given.source >= SettingSource::environment && !is_scene) line += fmt::format(" {}", flag_of(given));
+  }
+  return line;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,96 @@
+#include "cli/validate.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "cli/basis_file.h"
+#include "cli/command_line.h"
+#include "cli/settings_flags.h"
+#include "pipeline/deliver_lightmap.h"
+#include "pipeline/late_blender.h"
+#include "pipeline/validate_run.h"
+#include "process/stop.h"
+#include "report/thresholds.h"
+#include "report/write.h"
+
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+namespace rnmbake {
+namespace {
+
+struct ValidateFlags {
+  explicit ValidateFlags(CLI::App& command) : settings(command, Purpose::validate) {
+    command
+        .add_option("--study", study,
+                    "split: also bake objects whole, by material, by loose part and by grid, for error and "
+                    "time against the number of targets")
+        ->check(CLI::IsMember({"split"}).description(""))
+        ->type_name("STUDY");
+    command
+        .add_option(
+            "--fail-above", fail_above,
+            "limits for each object and basis of the receiver's bake, such as rmse=2%,bias=0.5%: exit "
+            "code 7 where one is exceeded. Of rmse, bias, p95, p99, max; % is of the reference's mean")
+        ->type_name("LIMITS");
+  }
+  SettingsFlags settings;
+  std::string study, fail_above;
+};
+
+std::string command_of(const ResolvedConfig& config, const ValidateFlags& flags) {
+  std::string line = command_line("validate", config);
+  if (!flags.study.empty()) line += " --study " + shell_word(flags.study);
+  if (!flags.fail_above.empty()) line += " --fail-above " + shell_word(flags.fail_above);
+  return line;
+}
+
+/// Titles, command, limits; then both pages.
+ThresholdOutcome write_reports(Validation& found, const ResolvedConfig& config, const ValidateFlags& flags,
+                               std::vector<Threshold> thresholds) {
+  const std::filesystem::path dir = config.globals.output.dir;
+  const std::string scene = config.globals.scene.file.filename().string();
+  found.receiver.title = scene + ": receiver against the reference";
+  found.recipe.title = scene + ": flat-normal-map against the reference";
+  found.receiver.command = found.recipe.command = command_of(config, flags);
+  found.receiver.thresholds = check_thresholds(found.receiver, std::move(thresholds));
+  found.receiver.notes.emplace_back("The same for flat-normal-map: flat-normal-map/report.html");
+  write_report(found.recipe, dir / "flat-normal-map");
+  write_report(found.receiver, dir);
+  return found.receiver.thresholds;
+}
+
+int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
+  std::vector<Threshold> thresholds;
+  if (!flags.fail_above.empty()) thresholds = parse_thresholds(flags.fail_above);
+  const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
+  LateBlender blender(config.globals);
+  (void)blender.info();  // a missing Blender is said before anything is written
+  Workspace workspace(config, blender);
+  prepare_output(config.globals.output);
+  Validation found = validate(workspace, bases, {flags.study == "split"});
+  const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
+  std::cout << found.receiver.finding << '\n';
+  log::info("report: {}", (config.globals.output.dir / "report.html").string());
+  for (const std::string& line : describe(limits)) log::error("{}", line);
+  if (!limits.exceeded.empty()) return static_cast<int>(ExitCode::threshold_exceeded);
+  return static_cast<int>(found.complete ? ExitCode::ok : ExitCode::tasks_failed);
+}
+
+}  // namespace
+
+std::function<int()> add_validate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("validate", "Say how wrong the bake of a scene is, and why");
+  auto flags = std::make_shared<ValidateFlags>(*command);
+  return [flags] {
+    const auto config = flags->settings.resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    return validate(*config, *flags);
+  };
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,112 @@
+#include "pipeline/validate_finding.h"
+
+#include "report/finding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace rnmbake {
+namespace {
+
+constexpr double worth_telling = 0.001;  // of the mean; smaller causes are left to the table
+constexpr double as_good_as_none = 0.003;
+
+/// Mean over bases. The interval is that of errors which go together, i.e. rather too wide.
+Statistic mean(const std::vector<Statistic>& all) {
+  Statistic sum;
+  for (const Statistic& one : all) {
+    sum.value += one.value / double(all.size());
+    sum.low95 += one.low95 / double(all.size());
+    sum.high95 += one.high95 / double(all.size());
+  }
+  return sum;
+}
+
+/// Beyond what matters and beyond what chance does to one of some hundred numbers: four standard errors.
+bool is_off(const Statistic& bias) {
+  const double four_errors = (bias.high95 - bias.low95) / 2 / 1.96 * 4;
+  return std::abs(bias.value) > as_good_as_none && std::abs(bias.value) > four_errors;
+}
+
+/// The bases that a recipe is judged by: a flat bake needs none.
+template <typename T, typename Name>
+std::vector<const T*> directional(const std::vector<T>& bases, Name name) {
+  std::vector<const T*> chosen;
+  for (const T& basis : bases) {
+    if (name(basis) != "flat") chosen.push_back(&basis);
+  }
+  if (chosen.empty()) {
+    for (const T& basis : bases) chosen.push_back(&basis);
+  }
+  return chosen;
+}
+
+using Causes = std::vector<std::pair<std::string, Statistic>>;
+
+Causes causes_of(const std::vector<const BasisDecomposition*>& bases) {
+  std::vector<std::pair<std::string, std::vector<Statistic>>> collected;
+  for (const BasisDecomposition* basis : bases) {
+    for (const DecompositionRow& row : basis->rows) {
+      auto found = std::ranges::find(collected, row.name, &decltype(collected)::value_type::first);
+      if (found == collected.end()) found = collected.insert(collected.end(), {row.name, {}});
+      found->second.push_back(row.relative_bias);
+    }
+  }
+  Causes causes;
+  for (const auto& [name, values] : collected) causes.emplace_back(name, mean(values));
+  return causes;
+}
+
+}  // namespace
+
+std::string receiver_finding(const Report& receiver) {
+  const ObjectComparison* worst = nullptr;
+  double largest = 0;
+  std::size_t off = 0;
+  for (const ObjectComparison& object : receiver.objects) {
+    double own = 0;
+    for (const BasisMetrics& basis : object.bases) {
+      const Statistic& bias = basis.metrics.relative_bias;
+      if (is_off(bias) && std::abs(bias.value) > std::abs(own)) own = bias.value;
+    }
+    if (own == 0) continue;
+    ++off;
+    if (worst == nullptr || std::abs(own) > std::abs(largest)) worst = &object;
+    if (worst == &object) largest = own;
+  }
+  if (receiver.objects.empty()) return "receiver: nothing was compared";
+  std::vector<Statistic> biases;
+  for (const BasisMetrics& basis : receiver.scene) biases.push_back(basis.metrics.relative_bias);
+  const std::string whole = percent(mean(biases), true);
+  if (worst == nullptr) return fmt::format("receiver: no bias beyond the noise ({} over the scene)", whole);
+  return fmt::format("receiver: {} of {} objects have a bias beyond the noise, most of all {} ({:+.1f} %)",
+                     off, receiver.objects.size(), worst->key, 100 * largest);
+}
+
+std::string recipe_finding(const Decomposition& scene) {
+  const auto bases = directional(scene.bases, [](const BasisDecomposition& basis) { return basis.basis; });
+  if (bases.empty()) return "flat-normal-map: nothing was compared";
+  std::vector<Statistic> totals;
+  for (const BasisDecomposition* basis : bases) totals.push_back(basis->total.relative_bias);
+  Causes causes = causes_of(bases);
+  Statistic residual;
+  std::erase_if(causes, [&](const auto& cause) {
+    if (cause.first == "residual") residual = cause.second;
+    return cause.first == "residual" || cause.first == "noise" ||
+           std::abs(cause.second.value) < worth_telling;
+  });
+  std::ranges::stable_sort(causes, std::ranges::greater{},
+                           [](const auto& cause) { return std::abs(cause.second.value); });
+  std::string told;
+  for (const auto& [name, value] : causes)
+    told += fmt::format("{}{} {:+.1f} %", told.empty() ? "" : ", ", name, 100 * value.value);
+  return fmt::format("flat-normal-map: {:+.1f} % on average{}{}; unexplained {}", 100 * mean(totals).value,
+                     told.empty() ? "" : ", from ", told, percent(residual, true));
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,224 @@
+#include "pipeline/validate_run.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "pipeline/compare.h"
+#include "pipeline/decompose.h"
+#include "pipeline/split_study.h"
+#include "pipeline/steps.h"
+#include "pipeline/validate_finding.h"
+#include "pipeline/variants.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+using Recipe = BakingSettings::Recipe;
+using Materials = SceneSettings::Materials;
+
+// Time of a step in units of one half of a receiver bake, about.
+constexpr double receiver_weight = 1, recipe_weight = 1.5, trace_weight = 0.7;
+constexpr double study_weight = 2 * recipe_weight + trace_weight;
+
+/// A fault that is added to those before it.
+struct Fault {
+  const char* name;
+  const char* folder;
+  bool RecipeFaults::*on;
+};
+constexpr std::array<Fault, 4> all_faults{
+    {{"tilt clamp", "1-tilt-clamp", &RecipeFaults::tilt_clamp},
+     {"bump shadowing", "2-bump-shadowing", &RecipeFaults::bump_shadowing},
+     {"self-reflection", "3-self-reflection", &RecipeFaults::self_reflection},
+     {"light from below", "4-below-horizon", &RecipeFaults::below_horizon}}};
+
+class ValidateRun {
+ public:
+  ValidateRun(Workspace& workspace, const std::vector<BasisDirection>& bases, const ValidateOptions& options)
+      : dir_(workspace.settings().output.dir),
+        exported_(export_scene(workspace)),
+        plan_(plan_reference(workspace.config(), exported_.exchange.survey.blender_version)),
+        scene_(exported_.exchange, plan_.blender_version),
+        base_{workspace, exported_, scene_, bases},
+        own_(has_own_materials()),
+        faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))) {
+    if (options.split_study) study_ = splittings(exported_);
+  }
+
+  Validation run() {
+    Steps steps(step_count(), whole_weight());
+    for (const BakeVariant& variant : bakes()) bake(variant, steps);
+    trace(truth(), "tracing the truth", steps);
+    for (const TraceVariant& emulation : emulations())
+      trace(emulation, "tracing the recipe's faults up to " + emulation.folder.filename().string(), steps);
+    SplitStudy study;
+    for (const Splitting& splitting : study_) {
+      steps.begin(fmt::format("study: {}, {} targets", splitting.name, splitting.list.targets.size()),
+                  study_weight);
+      study.points.push_back(study_point(base_, splitting, plan_, 64));
+    }
+    steps.begin("comparing", 0.1);
+    return compare(std::move(study));
+  }
+
+ private:
+  /// Objects whose materials the lambert scene only stands in for.
+  [[nodiscard]] bool has_own_materials() const {
+    return std::ranges::any_of(exported_.exchange.outside, [](const OutsideModel& outside) {
+      return outside.owner.starts_with("object ");
+    });
+  }
+
+  [[nodiscard]] static BakeVariant bake_of(Recipe recipe, Materials materials) {
+    const bool receiver = recipe == Recipe::receiver, lambert = materials == Materials::lambert;
+    std::filesystem::path folder = receiver ? "receiver" : "flat-normal-map";
+    if (!lambert) folder += "-own-materials";
+    return {recipe, materials, folder, (receiver ? 0 : 2) + (lambert ? 0 : 4)};
+  }
+
+  [[nodiscard]] std::vector<BakeVariant> bakes() const {
+    std::vector<BakeVariant> list;
+    for (const Materials materials : {Materials::lambert, Materials::full}) {
+      if (materials == Materials::full && !own_) break;
+      list.push_back(bake_of(Recipe::receiver, materials));
+      list.push_back(bake_of(Recipe::flat_normal_map, materials));
+    }
+    return list;
+  }
+
+  [[nodiscard]] TraceVariant truth() const { return {plan_, "reference", 8, "tracing"}; }
+
+  /// The faults that this Blender has, one more each time.
+  [[nodiscard]] std::vector<TraceVariant> emulations() const {
+    std::vector<TraceVariant> list;
+    TraceVariant variant = truth();
+    variant.plan.flat_normal_map = true;
+    for (const Fault& fault : all_faults) {
+      if (!(faults_.*fault.on)) continue;
+      variant.plan.faults.*fault.on = true;
+      variant.folder = std::filesystem::path("emulation") / fault.folder;
+      ++variant.seed;
+      list.push_back(variant);
+    }
+    return list;
+  }
+
+  [[nodiscard]] std::size_t step_count() const {
+    return 2 * bakes().size() + 1 + emulations().size() + study_.size() + 1;
+  }
+  [[nodiscard]] double whole_weight() const {
+    double sum = 0.1 + trace_weight * double(1 + emulations().size()) + study_weight * double(study_.size());
+    for (const BakeVariant& variant : bakes()) sum += 2 * weight_of(variant);
+    return sum;
+  }
+  [[nodiscard]] static double weight_of(const BakeVariant& variant) {
+    return variant.recipe == Recipe::receiver ? receiver_weight : recipe_weight;
+  }
+
+  void bake(const BakeVariant& variant, Steps& steps) {
+    for (const int half : {0, 1}) {
+      steps.begin(fmt::format("baking {}, half {} of 2", variant.folder.string(), half + 1),
+                  weight_of(variant));
+      const BakeOutcome outcome = bake_half(base_, exported_.list, variant, half);
+      const std::size_t failed = count_failed(outcome.deliveries);
+      if (failed == outcome.deliveries.size()) {
+        fail(ExitCode::tasks_failed, "no object could be baked by {}; what went wrong stands above",
+             variant.folder.string());
+      }
+      complete_ &= failed == 0;
+    }
+  }
+
+  void trace(const TraceVariant& variant, const std::string& name, Steps& steps) {
+    steps.begin(name, trace_weight);
+    complete_ &= count_failed(trace_variant(base_, exported_.list, variant).deliveries) == 0;
+  }
+
+  [[nodiscard]] Halves halves(Recipe recipe, Materials materials) const {
+    const BakeVariant variant = bake_of(recipe, materials);
+    return {half_folder(base_, variant, 0), half_folder(base_, variant, 1)};
+  }
+
+  [[nodiscard]] Report against_truth(Recipe recipe, const std::string& label) const {
+    const bool whole_recipe = recipe == Recipe::flat_normal_map && own_;
+    const Halves sides = halves(recipe, whole_recipe ? Materials::full : Materials::lambert);
+    CompareOptions options;
+    options.candidate = {sides.first, sides.second, label};
+    options.reference = {dir_ / truth().folder, {}, "reference"};
+    return compare_lightmaps(options);
+  }
+
+  [[nodiscard]] DecomposeInput decompose_input() const {
+    DecomposeInput input;
+    input.truth = dir_ / truth().folder;
+    std::vector<const char*> names;
+    for (const Fault& fault : all_faults) {
+      if (faults_.*fault.on) names.push_back(fault.name);
+    }
+    const std::vector<TraceVariant> traced = emulations();
+    for (std::size_t i = 0; i < traced.size(); ++i)
+      input.emulated.push_back({names[i], dir_ / traced[i].folder});
+    input.recipe = halves(Recipe::flat_normal_map, Materials::lambert);
+    input.receiver = halves(Recipe::receiver, Materials::lambert);
+    if (own_) {
+      input.own_recipe = halves(Recipe::flat_normal_map, Materials::full);
+      input.own_receiver = halves(Recipe::receiver, Materials::full);
+    }
+    return input;
+  }
+
+  [[nodiscard]] Validation compare(SplitStudy study) const {
+    Validation result{against_truth(Recipe::receiver, "receiver"),
+                      against_truth(Recipe::flat_normal_map, "flat-normal-map"), complete_};
+    const std::vector<Decomposition> parts = decompose(decompose_input());
+    const std::string of_recipe = recipe_finding(parts.front());
+    result.recipe.finding = of_recipe + ".";
+    result.receiver.finding = receiver_finding(result.receiver) + "; " + of_recipe + ".";
+    for (Report* report : {&result.receiver, &result.recipe}) {
+      report->decompositions = parts;
+      report->study = study;
+      add_notes(*report);
+    }
+    return result;
+  }
+
+  void add_notes(Report& report) const {
+    report.settings.emplace_back("materials",
+                                 own_ ? "lambert; own materials too, for the rows that are about them"
+                                      : "lambert, which is what the scene's own are");
+    report.notes.emplace_back(
+        "The decomposition is of flat-normal-map minus the reference. Causes are added to the tracer one "
+        "after "
+        "the other; 'residual' is Cycles' bake minus the tracer with all of them.");
+    for (const OutsideModel& outside : exported_.exchange.outside) {
+      if (outside.owner.starts_with("object ")) continue;  // stands with the object
+      std::string what;
+      for (const std::string& one : outside.what) what += (what.empty() ? "" : ", ") + one;
+      report.notes.push_back(outside.owner + ": outside the reference's model: " + what);
+    }
+  }
+
+  std::filesystem::path dir_;
+  ExportedScene exported_;
+  ReferencePlan plan_;
+  TraceScene scene_;
+  VariantBase base_;
+  bool own_;
+  RecipeFaults faults_;
+  std::vector<Splitting> study_;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+Validation validate(Workspace& workspace, const std::vector<BasisDirection>& bases,
+                    const ValidateOptions& options) {
+  return ValidateRun(workspace, bases, options).run();
+}
+
+}  // namespace rnmbake

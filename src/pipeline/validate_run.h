@@ -1,0 +1,29 @@
+// pipeline/validate_run.h - bakes, traces and compares one scene: how wrong the bake is, and why.
+#pragma once
+
+#include "basis/basis_set.h"
+#include "pipeline/workspace.h"
+#include "report/comparison.h"
+
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct ValidateOptions {
+  bool split_study = false;
+};
+
+/// Two reports on the same truth. The receiver's has the decomposition of the recipe's error and the study.
+struct Validation {
+  Report receiver, recipe;
+  bool complete = true;  // no object failed in any bake
+};
+
+/// Bakes the scene of the settings by both recipes, twice each with half of the samples, so that the noise is
+/// known; traces the truth and the recipe's errors one after the other; compares. Lightmaps and manifests of
+/// each step stay in folders of the output folder. Reports lack title and command. Throws as the steps do.
+[[nodiscard]] Validation validate(Workspace& workspace, const std::vector<BasisDirection>& bases,
+                                  const ValidateOptions& options);
+
+}  // namespace rnmbake
