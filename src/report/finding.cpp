@@ -13,6 +13,10 @@ struct Place {
   const BasisMetrics* basis = nullptr;
 };
 
+Statistic negated(const Statistic& statistic) {
+  return {-statistic.value, -statistic.high95, -statistic.low95};
+}
+
 double size_of(const Statistic& statistic) {
   return std::abs(statistic.value);
 }
@@ -51,12 +55,13 @@ std::string bias_clause(const Report& report, const BasisMetrics& basis) {
   const Statistic& bias = basis.metrics.relative_bias;
   const bool could_be_none = bias.low95 <= 0 && bias.high95 >= 0;
   if (could_be_none) {
-    return fmt::format("{} shows no bias against {} that could be told from chance: {} at most, in {}",
-                       report.candidate_label, report.reference_label, percent(bias, true), basis.name);
+    return fmt::format(
+        "{} shows no bias against {} that could be told from chance, the largest being {} in {}",
+        report.candidate_label, report.reference_label, percent(bias, true), basis.name);
   }
-  return fmt::format("{} is {} than {} by {} in {}", report.candidate_label,
-                     bias.value > 0 ? "brighter" : "darker", report.reference_label, percent(bias, true),
-                     basis.name);
+  return fmt::format("{} is {} than {}, most of all in {} by {}", report.candidate_label,
+                     bias.value > 0 ? "brighter" : "darker", report.reference_label, basis.name,
+                     percent(bias.value < 0 ? negated(bias) : bias, false));
 }
 
 bool noise_known(const PictureMetrics& metrics) {
@@ -64,7 +69,7 @@ bool noise_known(const PictureMetrics& metrics) {
 }
 
 std::string error_clause(const BasisMetrics& basis) {
-  return fmt::format("the error is {} RMS{}", percent(basis.metrics.relative_rmse.value),
+  return fmt::format("the error is up to {} RMS{}", percent(basis.metrics.relative_rmse, false),
                      noise_known(basis.metrics) ? " with the noise taken out" : ", noise included");
 }
 
@@ -73,6 +78,13 @@ std::string worst_clause(const Report& report) {
   if (report.objects.size() < 2 || worst.basis == nullptr) return "";
   return fmt::format("; the worst object is {} with {} in {}", worst.object->key,
                      percent(worst.basis->metrics.relative_rmse.value), worst.basis->name);
+}
+
+/// Two decimals, more where there would be nothing else, fewer from 10 on.
+std::string hundredths(double value) {
+  const double size = std::abs(value);
+  if (!std::isfinite(value) || size >= 1000 || size == 0) return number(value);
+  return fmt::format("{:.{}f}", value, size >= 10 ? 1 : size >= 0.1 ? 2 : size >= 0.01 ? 3 : 4);
 }
 
 }  // namespace
@@ -87,12 +99,12 @@ std::string number(double value) {
 }
 
 std::string percent(double share) {
-  return fmt::format("{} %", number(100 * share));
+  return hundredths(100 * share) + " %";
 }
 
 std::string percent(const Statistic& share, bool with_sign) {
   const auto one = [&](double value) {
-    return fmt::format("{}{}", with_sign && value > 0 ? "+" : "", number(100 * value));
+    return fmt::format("{}{}", with_sign && value > 0 ? "+" : "", hundredths(100 * value));
   };
   return fmt::format("{} % ({} to {})", one(share.value), one(share.low95), one(share.high95));
 }

@@ -144,12 +144,19 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
   return out;
 }
 
+/// Numbers stay on one line with their sign.
+std::string unbroken(std::string text) {
+  for (auto at = text.find(" %"); at != std::string::npos; at = text.find(" %", at))
+    text.replace(at, 1, "\u00a0");
+  return text;
+}
+
 std::string page_with(const Report& report, const Limits& limits, int view_limit) {
   Blobs blobs;
   json pictures{{"objects", add_maps(report, limits, blobs)},
                 {"views", add_views(report, view_limit, blobs)}};
   return filled(html_page, {{"title", escaped(report.title)},
-                            {"finding", escaped(report.finding)},
+                            {"finding", unbroken(escaped(report.finding))},
                             {"style", html_style},
                             {"report", for_script(report_document(report))},
                             {"pictures", for_script(pictures)},

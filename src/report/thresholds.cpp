@@ -102,8 +102,8 @@ std::vector<Threshold> parse_thresholds(const std::string& text) {
 ThresholdOutcome check_thresholds(const Report& report, std::vector<Threshold> thresholds) {
   ThresholdOutcome outcome{std::move(thresholds), {}};
   for (const ObjectComparison& object : report.objects) {
-    for (const BasisMetrics& basis : object.bases) {
-      for (const Threshold& threshold : outcome.thresholds) {
+    for (const Threshold& threshold : outcome.thresholds) {
+      for (const BasisMetrics& basis : object.bases) {
         const double value = value_of(threshold, basis.metrics);
         if (value <= threshold.limit) continue;
         outcome.exceeded.push_back({object.key, basis.name, threshold, value});

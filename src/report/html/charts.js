@@ -39,36 +39,46 @@ function miniInterval(statistic, reach) {
     svg('line', {x1: x(0), x2: x(0), y1: 0, y2: 14, class: 'zero'}), whisker(statistic, x, 7));
 }
 
-function axis(x, reach, height, ticks = [-1, -0.5, 0, 0.5, 1]) {
-  return ticks.map(share => svg('g', {class: share === 0 ? 'zero' : 'grid'},
-    svg('line', {x1: x(share * reach), x2: x(share * reach), y1: 6, y2: height}),
-    svg('text', {x: x(share * reach), y: height + 15, 'text-anchor': 'middle'}, signedPercent(share * reach))));
+// An axis that holds all values and 0, with round numbers.
+function axisOf(values) {
+  const low = Math.min(0, ...values.filter(known)), high = Math.max(0, ...values.filter(known));
+  const step = roundUp((high - low) / 5 || 1);
+  const first = Math.floor(low / step + 1e-6), last = Math.max(Math.ceil(high / step - 1e-6), first + 1);
+  return {low: first * step, high: last * step, ticks: Array.from({length: last - first + 1}, (_, i) => (first + i) * step)};
 }
 
-// rows: [{name, statistic}]. One line each, around 0.
-function intervalChart(rows, label) {
-  const left = 76, width = 560, step = 26, height = rows.length * step + 10;
-  const reach = roundUp(reachOf(rows.map(row => row.statistic)));
-  const x = value => left + (value / reach + 1) / 2 * (width - left - 34);
+const endsOf = statistics => statistics.flatMap(s => [s.value, s.low95, s.high95]);
+
+function grid(x, {ticks}, height, write) {
+  return ticks.map(tick => svg('g', {class: tick === 0 ? 'zero' : 'grid'},
+    svg('line', {x1: x(tick), x2: x(tick), y1: 6, y2: height}),
+    svg('text', {x: x(tick), y: height + 15, 'text-anchor': 'middle'}, write(tick))));
+}
+
+// rows: [{name, statistic}]. One line each.
+function intervalChart(rows, label, write) {
+  const left = 70, width = 480, step = 26, height = rows.length * step + 10;
+  const axis = axisOf(endsOf(rows.map(row => row.statistic)));
+  const x = value => left + (value - axis.low) / (axis.high - axis.low) * (width - left - 24);
   return svg('svg', {class: 'chart', viewBox: `0 0 ${width} ${height + 22}`, role: 'img', 'aria-label': label},
-    axis(x, reach, height),
+    grid(x, axis, height, write),
     rows.map((row, i) => svg('g', {},
-      title(`${row.name}: ${signedPercent(row.statistic.value)} (${interval(row.statistic, signedPercent)})`),
-      svg('text', {x: left - 30, y: i * step + 24, 'text-anchor': 'end', class: 'name'}, row.name),
+      title(`${row.name}: ${write(row.statistic.value)} (${interval(row.statistic, write)})`),
+      svg('text', {x: left - 22, y: i * step + 24, 'text-anchor': 'end', class: 'name'}, row.name),
       whisker(row.statistic, x, i * step + 20))));
 }
 
 // bases: [{basis, rows: [{name, relative_bias}], total}]. Causes that brighten pile up to the right of 0, those that
 // darken to the left; each end carries its cause's interval, the diamond is the total.
 function stackedChart(bases, names) {
-  const left = 76, width = 640, step = 46, height = bases.length * step + 6;
+  const left = 70, width = 640, step = 46, height = bases.length * step + 6;
   const sums = bases.flatMap(basis => [-1, 1].map(side => basis.rows.reduce(
-    (sum, row) => sum + Math.max(0, side * (row.relative_bias.value || 0)), 0)));
-  const reach = roundUp(Math.max(...sums, reachOf(bases.flatMap(basis => basis.rows.map(row => row.relative_bias)))));
-  const x = value => left + (value / reach + 1) / 2 * (width - left - 34);
-  const bars = bases.map((basis, i) => stack(basis, names, x, i * step + 12));
+    (sum, row) => sum + side * Math.max(0, side * (row.relative_bias.value || 0)), 0)));
+  const axis = axisOf([...sums, ...endsOf(bases.map(basis => basis.total.relative_bias))]);
+  const x = value => left + (value - axis.low) / (axis.high - axis.low) * (width - left - 24);
   return svg('svg', {class: 'chart', viewBox: `0 0 ${width} ${height + 22}`, role: 'img',
-    'aria-label': 'What the bias is made of, for each basis'}, axis(x, reach, height), bars);
+    'aria-label': 'What the bias is made of, for each basis'}, grid(x, axis, height, signedPercent),
+    bases.map((basis, i) => stack(basis, names, x, i * step + 12)));
 }
 
 function stack(basis, names, x, y) {
@@ -99,7 +109,7 @@ function studyChart(points, value, write, label) {
   const targets = points.map(point => Math.max(point.targets, 1));
   const least = Math.log(Math.min(...targets)), most = Math.log(Math.max(...targets));
   const x = count => left + 18 + (most > least ? (Math.log(count) - least) / (most - least) : 0.5) * (width - left - right - 36);
-  const top = roundUp(Math.max(reachOf(points.map(value)), 1e-12));
+  const top = axisOf(endsOf(points.map(value))).high;
   const y = share => height - bottom - share * (height - bottom - 14);
   const sorted = [...points].sort((a, b) => a.targets - b.targets);
   const place = point => `${x(Math.max(point.targets, 1))},${y((value(point).value || 0) / top)}`;
@@ -108,12 +118,12 @@ function studyChart(points, value, write, label) {
       svg('line', {x1: left, x2: width - right, y1: y(share), y2: y(share)}),
       svg('text', {x: left - 6, y: y(share) + 4, 'text-anchor': 'end'}, write(share * top)))),
     svg('polyline', {points: sorted.map(place).join(' '), class: 'path'}),
-    sorted.map((point, i) => {
+    sorted.map(point => {
       const statistic = value(point), at = x(Math.max(point.targets, 1));
       return svg('g', {class: 'point'}, title(`${point.name}: ${point.targets} targets, ${write(statistic.value)}`),
         known(statistic.low95) ? svg('line', {x1: at, x2: at, y1: y(statistic.low95 / top), y2: y(statistic.high95 / top)}) : null,
         svg('circle', {cx: at, cy: y((statistic.value || 0) / top), r: 4}),
-        svg('text', {x: at, y: y((statistic.value || 0) / top) - 10 - 12 * (i % 2), 'text-anchor': 'middle', class: 'name'}, point.name),
+        svg('text', {x: at, y: y(Math.max(statistic.value || 0, statistic.high95 || 0) / top) - 9, 'text-anchor': 'middle', class: 'name'}, point.name),
         svg('text', {x: at, y: height - bottom + 16, 'text-anchor': 'middle'}, String(point.targets)));
     }),
     svg('text', {x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'}, 'bake targets'));

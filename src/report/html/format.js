@@ -14,8 +14,15 @@ function signed(value) {
 }
 
 const known = value => value !== null && value !== undefined && Number.isFinite(value);
-const percent = value => known(value) ? number(100 * value) + ' %' : '–';
-const signedPercent = value => known(value) ? signed(100 * value) + ' %' : '–';
+const percent = value => known(value) ? hundredths(100 * value) + '\u00a0%' : '–';
+const signedPercent = value => known(value) ? (value > 0 ? '+' : '') + hundredths(100 * value) + '\u00a0%' : '–';
+
+// Two decimals, more where there would be nothing else, fewer from 10 on.
+function hundredths(value) {
+  const size = Math.abs(value);
+  if (size >= 1000 || size === 0) return number(value);
+  return value.toFixed(size >= 10 ? 1 : size >= 0.1 ? 2 : size >= 0.01 ? 3 : 4).replace('-', '−');
+}
 
 function interval(statistic, write) {
   if (!known(statistic.low95)) return 'interval unknown';
@@ -39,7 +46,7 @@ function dress(element, attributes, children) {
     else if (value === true) element.setAttribute(name, '');
     else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, value);
   }
-  element.append(...children.flat().filter(child => child !== null && child !== undefined));
+  element.append(...children.flat(Infinity).filter(child => child !== null && child !== undefined));
   return element;
 }
 

@@ -116,8 +116,8 @@ class ObjectTable {
       if (!row) continue;
       this.thumbs.unobserve(target);
       const maps = pictures.objects[row.index][0];
-      if (!maps) continue;
-      const layers = (await layersOf(row.object, maps)).filter(layer => layer.thumb);
+      const found = maps ? await layersOf(row.object, maps).catch(() => []) : [];
+      const layers = found.filter(layer => layer.thumb);
       for (const layer of layers) {
         const canvas = el('canvas', {});
         paint(canvas, layer, look);
@@ -159,9 +159,9 @@ function histograms(layers) {
   const light = layers.filter(layer => layer.kind === 'light').map(({label, picture}) =>
     ({label, values: Float32Array.from({length: picture.width * picture.height}, (_, i) => Math.log2(meanAt(picture, i)))}));
   const finite = light.flatMap(one => [...one.values]).filter(Number.isFinite).sort((a, b) => a - b);
-  const low = Math.floor(finite[Math.floor(finite.length * 0.005)] || 0) , high = Math.max(Math.ceil(finite[finite.length - 1] || 1), low + 1);
+  const low = Math.floor(finite[Math.floor(finite.length * 0.005)] || 0), high = Math.max(Math.ceil(finite[finite.length - 1] || 1), low + 1);
   const stops = share => number(2 ** (low + share * (high - low)));
-  return el('div', {class: 'charts'},
+  return el('div', {},
     el('figure', {}, el('figcaption', {}, 'relative error of the texels'),
       histogram([{name: 'texels', counts: binned(error, -look.scale, look.scale, 60)}],
         [[0, signedPercent(-look.scale)], [0.5, '0'], [1, signedPercent(look.scale)]], 'Histogram of the relative error')),
@@ -193,13 +193,13 @@ function objectDetail(object, index) {
   const show = async basis => {
     const entry = maps.find(one => one.basis === basis);
     const layers = await layersOf(object, entry);
-    const viewer = new Viewer(layers, {full: object.width});
+    const viewer = new Viewer(layers, {full: object.width, beside: () => histograms(layers)});
     const metrics = object.bases.find(one => one.basis === basis);
     const factor = Math.ceil(object.width / viewer.width);
     const worst = el('button', {type: 'button', onclick: () => viewer.moveTo(Math.floor(metrics.max.x / factor), Math.floor(metrics.max.y / factor))},
       `worst texel (${metrics.max.x}, ${metrics.max.y})`);
     const size = `${object.width} × ${object.height} texels` + (factor > 1 ? `, shown as means of ${factor} × ${factor}` : '');
-    stage.replaceChildren(el('p', {class: 'fields'}, el('span', {class: 'quiet'}, size), metrics.texels ? worst : null), viewer.element, histograms(layers));
+    stage.replaceChildren(el('p', {class: 'fields'}, el('span', {class: 'quiet'}, size), metrics.texels ? worst : null), viewer.element);
   };
   if (maps.length) show(maps[0].basis).catch(problem => stage.replaceChildren(
     el('p', {class: 'warning'}, `The maps cannot be shown: ${problem.message}. A browser of 2023 or newer can.`)));

@@ -34,8 +34,8 @@ function sceneSection() {
   return section('scene', 'Whole scene',
     el('p', {class: 'quiet'}, 'All objects as one, texel by texel, as shares of the reference\'s mean. ' + noiseSentence()),
     el('div', {class: 'charts'},
-      el('figure', {}, el('figcaption', {}, 'bias with its 95 % interval'), intervalChart(rows, 'Bias for each basis')),
-      el('figure', {}, el('figcaption', {}, 'RMSE with its 95 % interval'), intervalChart(errors, 'RMSE for each basis'))),
+      el('figure', {}, el('figcaption', {}, 'bias with its 95 % interval'), intervalChart(rows, 'Bias for each basis', signedPercent)),
+      el('figure', {}, el('figcaption', {}, 'RMSE with its 95 % interval'), intervalChart(errors, 'RMSE for each basis', percent))),
     el('div', {class: 'scroll'}, el('table', {class: 'numbers'},
       el('thead', {}, el('tr', {}, ['basis', 'reference mean', 'bias', 'RMSE', '95 %', '99 %', 'max', 'noise of either side']
         .map(name => el('th', {scope: 'col'}, name)))),

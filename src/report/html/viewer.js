@@ -38,9 +38,9 @@ function legend(kind) {
 }
 
 // layers: [{label, kind: 'light'|'signed'|'noise', picture}], all of one size. `full` is the width of the map before
-// it was scaled down; `own` is a look of the viewer's own, else the page's.
+// it was scaled down; `own` is a look of the viewer's own, else the page's; `beside` makes what stands by the slider.
 class Viewer {
-  constructor(layers, {full = 0, own = null, wide = false} = {}) {
+  constructor(layers, {full = 0, own = null, wide = false, beside = () => null} = {}) {
     Object.assign(this, {layers, full: full || layers[0].picture.width, look: own || look});
     this.width = layers[0].picture.width;
     this.height = layers[0].picture.height;
@@ -48,8 +48,11 @@ class Viewer {
     this.readout = el('output', {class: 'readout'}, 'Point at a map, or focus it and use the arrow keys, to read its values.');
     this.panes = layers.map(layer => this.pane(layer));
     this.slider = new Slider(this);
+    this.beside = beside;
+    this.side = el('div', {class: 'beside'});
     this.element = el('div', {class: 'viewer' + (wide ? ' wide' : '')},
-      el('div', {class: 'maps'}, this.panes.map(pane => pane.figure)), this.readout, this.slider.element);
+      el('div', {class: 'maps'}, this.panes.map(pane => pane.figure)), this.readout,
+      el('div', {class: 'below'}, this.slider.element, this.side));
     look.viewers.add(this);
     this.repaint();
   }
@@ -71,6 +74,7 @@ class Viewer {
       if (pane.scale) pane.scale.update();
     }
     this.slider.repaint();
+    this.side.replaceChildren(this.beside() || '');
   }
 
   point(event) {
