@@ -30,21 +30,27 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
       path_{options.bounces, options.light_sampling, options.chance_hits},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
-      here_(texels),
-      lobes_(texels),
-      normals_(texels * options.directions.size()),
+      here_(texels + 1),
+      lobes_(texels + 1),
+      normals_((texels + 1) * options.directions.size()),
       found_(texels),
       back_faces_(texels) {}
 
 void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::uint64_t seed,
                           BatchTally& tally) {
+  const bool lamps = options_.light_sampling && !scene_.lights().empty();
   for (std::size_t i = 0; i < block.size(); ++i) here_[i].sums = tally.texel(i);
   for (int s = 0; s < samples; ++s) {
     for (std::size_t i = 0; i < block.size(); ++i) {
-      Sampler sampler(hash_of(seed, i), static_cast<std::uint32_t>(s));
+      Sampler sampler(hash_of(seed, 2 * i), static_cast<std::uint32_t>(s));
       set_out(i, block[i], sampler);
-      if (options_.light_sampling) sample_lamps(i, sampler);
       shoot(i, sampler);
+      here_[texels].sums = here_[i].sums;
+      for (int lamp = 0; lamps && lamp < lamp_samples; ++lamp) {
+        Sampler for_lamps(hash_of(seed, 2 * i + 1), static_cast<std::uint32_t>(s * lamp_samples + lamp));
+        set_out(texels, block[i], for_lamps);
+        sample_lamp(texels, for_lamps);
+      }
     }
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (found_[i].radiance != Vec3(0)) share(i, block.size());
@@ -97,15 +103,16 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
   for (std::size_t c = 0; c < coefficients_; ++c) here.sums[directions_ + c] += light * y[c];
 }
 
-void BlockGatherer::sample_lamps(std::size_t i, Sampler& sampler) {
+void BlockGatherer::sample_lamp(std::size_t i, Sampler& sampler) {
   const Here& here = here_[i];
   const LightSample light = scene_.lights().sample(here.position, here.face, sampler.next3());
   if (!(light.pdf > 0) || !(light.direction.dot(here.face) > 0)) return;
   ++rays_;
   if (scene_.occluded({here.position, light.direction, short_of(light.distance, here.gap)})) return;
   const bool both = light.chance_hits && options_.chance_hits;
-  const float share = both ? balance(light.pdf, lobes_[i].pdf(light.direction)) : 1;
-  add(i, light.direction, light.radiance * (share / light.pdf));
+  const float density = light.pdf * lamp_samples;
+  const float share = both ? balance(density, lobes_[i].pdf(light.direction)) : 1;
+  add(i, light.direction, light.radiance * (share / density));
 }
 
 /// The texel's own ray: what glows is added at once, what reflects is left in `found_`.
@@ -118,7 +125,9 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
   const float pdf = lobes_[i].pdf(direction);
   if (!(pdf > 0)) return;
   const auto chance_share = [&](float light_pdf) {
-    return !options_.chance_hits ? 0.0F : options_.light_sampling ? balance(pdf, light_pdf) : 1.0F;
+    return !options_.chance_hits     ? 0.0F
+           : options_.light_sampling ? balance(pdf, light_pdf * lamp_samples)
+                                     : 1.0F;
   };
   const Ray ray{here.position, direction, infinity};
   Hit hit;

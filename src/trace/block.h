@@ -25,6 +25,7 @@ namespace rnmbake {
 class BlockGatherer {
  public:
   static constexpr std::size_t texels = 16;  // of a block, at most
+  static constexpr int lamp_samples = 8;  // for each path: they cost little, and most of the noise is theirs
 
   BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options);
 
@@ -52,7 +53,7 @@ class BlockGatherer {
   };
 
   void set_out(std::size_t i, const TexelSite& texel, Sampler& sampler);
-  void sample_lamps(std::size_t i, Sampler& sampler);
+  void sample_lamp(std::size_t i, Sampler& sampler);
   void shoot(std::size_t i, Sampler& sampler);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
@@ -62,9 +63,9 @@ class BlockGatherer {
   const GatherOptions& options_;
   PathOptions path_;
   std::size_t directions_, coefficients_;
-  std::vector<Here> here_;
+  std::vector<Here> here_;  // [texels + 1]: the last is where a texel looks at lamps from
   std::vector<Lobes> lobes_;
-  std::vector<Vec3> normals_;  // [texels][directions], world space
+  std::vector<Vec3> normals_;  // [texels + 1][directions], world space
   std::vector<Found> found_;
   std::int64_t rays_ = 0;
   std::vector<std::int64_t> back_faces_;

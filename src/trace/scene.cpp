@@ -1,5 +1,6 @@
 #include "trace/scene.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "trace/embree.h"
 
@@ -7,6 +8,10 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace rnmbake {
 
@@ -104,6 +109,7 @@ TraceScene::TraceScene(const Exchange& scene, const std::string& blender_version
 TraceScene::~TraceScene() = default;
 
 bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
+  if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, false});
   RTCRayHit query;
   query.ray = to_embree(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -119,9 +125,34 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
 }
 
 bool TraceScene::occluded(const Ray& ray) const {
+  if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
   RTCRay query = to_embree(ray);
   embree_occluded(accelerator_->scene, query);
   return query.tfar < 0;
+}
+
+double TraceScene::time_bare(const RayLog& log, int threads) const {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const auto pass = [&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, log.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        RTCRayHit query;
+        query.ray = to_embree({log[i].origin, log[i].direction, log[i].to});
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        if (log[i].shadow) {
+          embree_occluded(accelerator_->scene, query.ray);
+        } else {
+          embree_intersect(accelerator_->scene, query);
+        }
+      }
+    });
+  };
+  arena.execute(pass);  // warms the caches
+  constexpr int passes = 3;
+  const double start = steady_clock().now();
+  for (int i = 0; i < passes; ++i) arena.execute(pass);
+  return passes * double(log.size()) / (steady_clock().now() - start);
 }
 
 std::size_t TraceScene::bytes() const {

@@ -5,6 +5,7 @@
 #include "scene/exchange.h"
 #include "trace/lights.h"
 #include "trace/looks.h"
+#include "trace/ray_log.h"
 #include "trace/triangles.h"
 
 #include <cstdint>
@@ -43,6 +44,11 @@ class TraceScene {
   [[nodiscard]] const Lights& lights() const { return lights_; }
   [[nodiscard]] const Looks& looks() const { return looks_; }
 
+  /// For benchmarks: where rays are noted from now on; null: nowhere.
+  void log_rays(RayLog* log) { log_ = log; }
+  /// Rays per second of a loop that does nothing but ask Embree about the rays of a log.
+  [[nodiscard]] double time_bare(const RayLog& log, int threads) const;
+
   /// Bytes of geometry, acceleration structure included.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -53,6 +59,7 @@ class TraceScene {
   Looks looks_;
   Lights lights_;
   std::unique_ptr<Accelerator> accelerator_;
+  RayLog* log_ = nullptr;
 };
 
 /// Where a ray met a surface; both normals point to the side that it came from.
