@@ -13,10 +13,16 @@ def bake_targets(task, scene):
     targets = task.request["targets"]
     wholes = realize.targets_as_objects(targets)
     cycles.apply_settings(scene, task.request["cycles"])  # after realize, which renders with its own
-    return {"targets": [bake_target(task, scene, target, whole) for target, whole in zip(targets, wholes)]}
+    total = sum(len(target["bakes"]) for target in targets)
+    timings, done = [], 0
+    for target, whole in zip(targets, wholes):
+        timings.append(bake_target(task, scene, target, whole, done, total))
+        done += len(target["bakes"])
+    return {"targets": timings}
 
 
-def bake_target(task, scene, target, whole):
+def bake_target(task, scene, target, whole, done, total):
+    """`done` of `total` bakes came before this target's."""
     clock = Stopwatch()
     prepare_uv(task, target, whole)
     with parts.as_object(task, target, whole) as ob:
@@ -24,7 +30,7 @@ def bake_target(task, scene, target, whole):
         materials = give_normal_map(ob, image, target["tangent_layer"], task.request["correct_bump"])
         prepare = clock.lap()
         for number, request in enumerate(target["bakes"]):
-            task.progress("bake", f"{target['label']} {request['basis']}", number, len(target["bakes"]))
+            task.progress("bake", f"{target['label']} {request['basis']}", done + number, total)
             for material in materials:
                 material.show_vector(request["direction"])
             cycles.bake_diffuse(scene, ob)

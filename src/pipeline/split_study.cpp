@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "pipeline/compare.h"
+#include "scene/uv_raster.h"
 
 #include <algorithm>
 #include <array>
@@ -33,9 +34,29 @@ TargetList whole_objects(const ExportedScene& exported) {
   return list;
 }
 
+/// Whether some texel's centre lies in the part: a piece between texels has no lightmap.
+bool covers_a_texel(const Mesh& mesh, const Target& target) {
+  std::vector<Vec2> uv;
+  for (const std::uint32_t triangle : target.part.triangles) {
+    for (std::size_t k = 0; k < 3; ++k)
+      uv.push_back((*target.uv)[mesh.triangle_loops[3 * std::size_t(triangle) + k]]);
+  }
+  const UvRaster raster = rasterize(uv, target.width, target.height);
+  for (int y = 0; y < target.height; ++y) {
+    for (int x = 0; x < target.width; ++x) {
+      if (raster.at(x, y).triangle >= 0) return true;
+    }
+  }
+  return false;
+}
+
+std::size_t target_count(const Splitting& splitting) {
+  return splitting.list.targets.size();
+}
+
 /// Every target of `whole` in the parts that `cut` makes of it.
 template <typename Cut>
-TargetList cut_objects(const TargetList& whole, Cut cut) {
+TargetList cut_objects(const Survey& survey, const TargetList& whole, Cut cut) {
   TargetList list;
   list.skipped = whole.skipped;
   for (std::size_t i = 0; i < whole.targets.size(); ++i) {
@@ -45,6 +66,7 @@ TargetList cut_objects(const TargetList& whole, Cut cut) {
       if (parts.size() > 1) target.key += "/" + part.name;
       if (parts.size() == 1) part.name.clear();
       target.part = std::move(part);
+      if (!covers_a_texel(survey.mesh_of(survey.objects[target.object]), target)) continue;
       list.targets.push_back(std::move(target));
       list.settings.push_back(whole.settings[i]);
     }
@@ -120,30 +142,31 @@ Statistic over_bases(const std::vector<BasisMetrics>& bases) {
 std::vector<Splitting> splittings(const ExportedScene& exported) {
   const Survey& survey = exported.exchange.survey;
   const TargetList whole = whole_objects(exported);
-  std::vector<Splitting> list{{"whole", whole}};
-  const auto offer = [&](const std::string& name, TargetList cut) {
-    if (cut.targets.size() <= list.back().list.targets.size()) return;
-    if (cut.targets.size() > most_targets) {
-      log::info("the study leaves out '{}': {} targets are more than {}", name, cut.targets.size(),
-                most_targets);
-      return;
-    }
-    list.push_back({name, std::move(cut)});
-  };
   const auto by = [&](ObjectSettings::Split mode) {
-    return cut_objects(whole, [&](const Target& target) {
+    return cut_objects(survey, whole, [&](const Target& target) {
       const SceneObject& object = survey.objects[target.object];
       return split_mesh(survey.mesh_of(object), object.slots, mode);
     });
   };
-  offer("material", by(ObjectSettings::Split::material));
-  offer("loose", by(ObjectSettings::Split::loose));
+  std::vector<Splitting> all{{"whole", whole},
+                             {"material", by(ObjectSettings::Split::material)},
+                             {"loose", by(ObjectSettings::Split::loose)}};
   const Box box = bounds_of(survey, whole);
   for (const int cells : {2, 4}) {
-    offer(fmt::format("grid {}", cells),
-          cut_objects(whole, [&](const Target& target) { return cut_by_grid(survey, target, box, cells); }));
+    all.push_back({fmt::format("grid {}", cells), cut_objects(survey, whole, [&](const Target& target) {
+                     return cut_by_grid(survey, target, box, cells);
+                   })});
   }
-  return list;
+  std::ranges::stable_sort(all, {}, target_count);
+  const auto repeated = std::ranges::unique(all, {}, target_count);
+  all.erase(repeated.begin(), repeated.end());
+  std::erase_if(all, [](const Splitting& one) {
+    const bool too_many = one.name != "whole" && one.list.targets.size() > most_targets;
+    if (too_many)
+      log::info("the study leaves out '{}': it has {} targets", one.name, one.list.targets.size());
+    return too_many;
+  });
+  return all;
 }
 
 StudyPoint study_point(const VariantBase& base, const Splitting& splitting, const ReferencePlan& plan,

@@ -16,8 +16,8 @@ struct Splitting {
   TargetList list;
 };
 
-/// Objects as they are, by material, by loose part, and by the cells of a grid over the scene; each only
-/// where it has more targets than those before it, and not too many to bake one by one. All pieces of an
+/// Objects as they are, by material, by loose part, and by the cells of a grid over the scene: by growing
+/// number of targets, each number once, without those that are too many to bake one by one. All pieces of an
 /// object keep its lightmap's size and UVs, so that the texels compared are the same.
 [[nodiscard]] std::vector<Splitting> splittings(const ExportedScene& exported);
 
