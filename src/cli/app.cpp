@@ -42,6 +42,7 @@ constexpr const char* examples =
     "  rnmbake inspect hall.blend                       what would be baked, at which size\n"
     "  rnmbake bake hall.blend -o lightmaps             bake everything\n"
     "  rnmbake bake hall.toml --samples 64              a project file, with one setting changed\n"
+    "  rnmbake validate hall.blend -o report            how wrong is the bake, and why?\n"
     "  rnmbake decode lightmaps/floor.exr --normal n.png -o lit.exr\n"
     "\n"
     "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"
