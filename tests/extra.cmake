@@ -33,3 +33,13 @@ add_test(NAME manifest.schema
   COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
 set_tests_properties(manifest.schema PROPERTIES LABELS blender TIMEOUT 1200)
+
+# The report's page in a real browser, and report.json against its schema.
+add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
+target_link_libraries(sample_report PRIVATE report rnm_warnings)
+foreach(CHECK page schema)
+  add_test(NAME report.${CHECK}
+    COMMAND ${CMAKE_COMMAND} -E env SAMPLE_REPORT=$<TARGET_FILE:sample_report>
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/report/${CHECK}_check.py -v)
+  set_tests_properties(report.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
+endforeach()

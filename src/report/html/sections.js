@@ -144,7 +144,7 @@ function objectsSection() {
     table.count);
   return section('objects', 'Objects',
     el('p', {class: 'quiet'}, 'Shares of the reference\'s mean of that object and basis. Open an object to see its maps.'), tools,
-    el('div', {class: 'scroll'}, el('table', {class: 'objects'}, el('thead', {}, el('tr', {}, table.heads)), table.body)), unmatched());
+    el('div', {class: 'scroll sheet'}, el('table', {class: 'objects'}, el('thead', {}, el('tr', {}, table.heads)), table.body)), unmatched());
 }
 
 function unmatched() {
