@@ -46,7 +46,7 @@ std::string bend_json(const std::string& text, std::mt19937& random) {
   }
   if (content.is_discarded()) return text;
   if (place->is_number_integer() && random() % 2 == 0) {
-    *place = place->get<std::int64_t>() + static_cast<std::int64_t>(random() % 9) - 4;
+    *place = place->get<std::uint64_t>() + random() % 9 - 4;
   } else {
     *place = odd_value(random);
   }
