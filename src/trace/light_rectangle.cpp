@@ -8,7 +8,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float smallest = 1e-3F;       // steradians: below, the sum of four angles loses too many digits
+constexpr double smallest = 1e-5;       // steradians: below, the sum of four angles loses too many digits
 constexpr float right_angle = 1e-4F;    // the largest cosine between the sides
 constexpr float nearest_plane = 1e-4F;  // distance to the plane as a share of the sides
 

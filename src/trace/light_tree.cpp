@@ -9,15 +9,20 @@ namespace {
 constexpr float slack = 1e-3F;         // cosines may be off by rounding: rather too much than nothing
 constexpr float horizon_share = 0.3F;  // of a light at the horizon: normals that tilt see light there well
 
+/// Both values exist already: no branch.
+inline float pick(bool first, float a, float b) {
+  return first ? a : b;
+}
+
 /// cos(max(0, a - b)) from the angles' cosines and sines.
 inline float cosine_between(float cos_a, float sin_a, float cos_b, float sin_b) {
   const float turned = cos_a * cos_b + sin_a * sin_b;
-  return cos_a > cos_b ? 1.0F : turned;
+  return pick(cos_a > cos_b, 1.0F, turned);
 }
 
 inline float sine_of(float cosine) {
   const float rest = 1 - cosine * cosine;
-  return std::sqrt(rest > 0 ? rest : 0.0F);
+  return std::sqrt(pick(rest > 0, rest, 0.0F));
 }
 
 }  // namespace
@@ -26,31 +31,35 @@ inline float sine_of(float cosine) {
 /// softened cosine at the surface / distance^2. Free of branches, so that the compiler takes several lanes at
 /// a time.
 float LightTree::weigh(const Node& node, const Vec3& point, const Vec3& normal, Weights& weights) {
+  Weights found;  // nothing else can point to it
   const float horizon = normal == Vec3(0, 0, 0) ? 1.0F : horizon_share;
   for (std::uint32_t i = 0; i < lanes; ++i) {
     const float wx = point.x - node.x[i], wy = point.y - node.y[i], wz = point.z - node.z[i];
     const float distance2 = wx * wx + wy * wy + wz * wz, radius2 = node.radius2[i];
     const bool inside = distance2 <= radius2;
-    const float scale = 1 / std::sqrt(distance2 > 1e-30F ? distance2 : 1e-30F);
+    const float scale = 1 / std::sqrt(pick(distance2 > 1e-30F, distance2, 1e-30F));
     // The directions from the point to the sphere lie in this cone.
-    const float sin_b2 = inside ? 1.0F : radius2 * scale * scale;
-    const float sin_b = std::sqrt(sin_b2), cos_b = inside ? -1.0F : std::sqrt(sin_b2 < 1 ? 1 - sin_b2 : 0.0F);
+    const float sin_b2 = pick(inside, 1.0F, radius2 * scale * scale), rest_b = 1 - sin_b2;
+    const float sin_b = std::sqrt(sin_b2), cos_outside = std::sqrt(pick(rest_b > 0, rest_b, 0.0F));
+    const float cos_b = pick(inside, -1.0F, cos_outside);
 
     const float towards = (node.axis_x[i] * wx + node.axis_y[i] * wy + node.axis_z[i] * wz) * scale;
-    const float along = node.two_sided[i] > 0 ? std::abs(towards) : towards;
+    const float two_sided = node.two_sided[i], either = std::abs(towards);
+    const float along = pick(two_sided > 0, either, towards);
     const float off_axis = cosine_between(along, sine_of(along), node.cos_normals[i], node.sin_normals[i]);
     const float leaving = cosine_between(off_axis, sine_of(off_axis), cos_b, sin_b);
-    const float least = leaving > slack ? leaving : slack;
-    const float sent = inside ? 1.0F : leaving < node.emission[i] - slack ? 0.0F : least;
+    const float least = pick(leaving > slack, leaving, slack), edge = node.emission[i] - slack;
+    const float sent = pick(inside, 1.0F, pick(leaving < edge, 0.0F, least));
 
     const float facing = -(normal.x * wx + normal.y * wy + normal.z * wz) * scale;
     const float nearest = cosine_between(facing, sine_of(facing), cos_b, sin_b);
-    const float above = horizon + (1 - horizon) * (nearest > 0 ? nearest : 0.0F);
-    const float received = inside ? 1.0F : nearest < -slack ? 0.0F : above;
+    const float above = horizon + (1 - horizon) * pick(nearest > 0, nearest, 0.0F);
+    const float received = pick(inside, 1.0F, pick(nearest < -slack, 0.0F, above));
 
-    const float further = distance2 > radius2 ? distance2 : radius2;
-    weights[i] = node.power[i] * sent * received / (further > 1e-20F ? further : 1e-20F);
+    const float further = pick(distance2 > radius2, distance2, radius2);
+    found[i] = node.power[i] * sent * received / pick(further > 1e-20F, further, 1e-20F);
   }
+  weights = found;
   float sum = 0;
   for (std::uint32_t i = 0; i < lanes; ++i) sum += weights[i];
   return sum;
