@@ -23,18 +23,26 @@ float largest_coordinate(const Vec3& p) {
 
 }  // namespace
 
-BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options)
+BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
+                             const OwnSurface* own)
     : scene_(scene),
       sites_(sites),
       options_(options),
-      path_{options.bounces, options.light_sampling, options.chance_hits},
+      path_{options.bounces, options.light_sampling, options.chance_hits, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
       here_(texels + 1),
       lobes_(texels + 1),
       normals_((texels + 1) * options.directions.size()),
       found_(texels),
-      back_faces_(texels) {}
+      back_faces_(texels) {
+  if (!options.faults.any()) return;
+  recipe_.emplace(options.faults, options.blender_version);
+  if (!options.faults.self_reflection) return;
+  path_.own = own;
+  path_.recipe = &*recipe_;
+  path_.basis = options.directions.front().direction;
+}
 
 void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::uint64_t seed,
                           BatchTally& tally) {
@@ -66,7 +74,7 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   here.face = place.face;
   here.gap = relative_gap * largest_coordinate(place.position);
   here.position = place.position + place.face * here.gap;
-  if (coefficients_ > 0) {
+  if (coefficients_ > 0 || recipe_) {
     here.normal = place.normal.normalized();
     here.tangent = (place.tangent - here.normal * place.tangent.dot(here.normal)).normalized();
     here.bitangent = here.normal.cross(here.tangent) * place.sign;
@@ -75,6 +83,7 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   for (std::size_t k = 0; k < directions_; ++k) {
     const Vec3& b = options_.directions[k].direction;
     normals[k] = (place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized();
+    if (recipe_) normals[k] = recipe_->closure(normals[k], here.normal, here.face, here.face).normal;
   }
   const bool few = directions_ > 0 && directions_ < Lobes::most;
   Lobes lobes(place.face, coefficients_ > 0 || !few);
@@ -95,7 +104,9 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
   const Vec3* normals = &normals_[i * directions_];
   const Vec3 over_pi = light * inv_pi;
   for (std::size_t k = 0; k < directions_; ++k) {
-    here.sums[k] += over_pi * std::max(0.0F, direction.dot(normals[k]));
+    const float cosine = recipe_ ? recipe_->cosine({normals[k], here.normal, true}, direction)
+                                 : std::max(0.0F, direction.dot(normals[k]));
+    here.sums[k] += over_pi * cosine;
   }
   if (coefficients_ == 0) return;
   const auto y =
@@ -105,14 +116,37 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
 
 void BlockGatherer::sample_lamp(std::size_t i, Sampler& sampler) {
   const Here& here = here_[i];
-  const LightSample light = scene_.lights().sample(here.position, here.face, sampler.next3());
-  if (!(light.pdf > 0) || !(light.direction.dot(here.face) > 0)) return;
+  const bool below_too = recipe_ && recipe_->faults().below_horizon;
+  const LightSample light = scene_.lights().sample(here.position, horizon(i), sampler.next3());
+  if (!(light.pdf > 0)) return;
+  if (!(light.direction.dot(here.face) > 0)) {
+    if (below_too) add_below(i, light);
+    return;
+  }
   ++rays_;
   if (scene_.occluded({here.position, light.direction, short_of(light.distance, here.gap)})) return;
   const bool both = light.chance_hits && options_.chance_hits;
   const float density = light.pdf * lamp_samples;
   const float share = both ? balance(density, lobes_[i].pdf(light.direction)) : 1;
   add(i, light.direction, light.radiance * (share / density));
+}
+
+/// A lamp below the face: Cycles asks only whether it is above the horizon of the closure.
+void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
+  const Here& here = here_[i];
+  const float step =
+      2 * (here.gap + static_cast<float>(lift(here.position, 1)));  // to the other side of the surface
+  ++rays_;
+  if (scene_.occluded({here.position - here.face * step, light.direction, short_of(light.distance, step)}))
+    return;
+  for (std::size_t k = 0; k < directions_; ++k) {
+    const Vec3& normal = normals_[i * directions_ + k];
+    const float other = normal.dot(light.direction) * inv_pi;
+    if (!(other > 0)) continue;
+    const float share = light.chance_hits ? power(light.pdf, other) : 1;
+    const float cosine = recipe_->cosine({normal, here.normal, true}, light.direction);
+    here.sums[k] += light.radiance * (cosine * inv_pi * share / (light.pdf * lamp_samples));
+  }
 }
 
 /// The texel's own ray: what glows is added at once, what reflects is left in `found_`.
@@ -133,7 +167,7 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
   Hit hit;
   ++rays_;
   if (!scene_.intersect(ray, hit)) {
-    const float other = scene_.lights().world_pdf(here.position, here.face, direction);
+    const float other = scene_.lights().world_pdf(here.position, horizon(i), direction);
     add(i, direction, scene_.lights().world(direction) * (chance_share(other) / pdf));
     return;
   }
@@ -141,7 +175,7 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
   if (vertex.back) ++back_faces_[i];
   if (scene_.looks().emits(vertex.look)) {
     const float other =
-        scene_.lights().triangle_pdf(here.position, here.face, hit.triangle, direction, hit.distance);
+        scene_.lights().triangle_pdf(here.position, horizon(i), hit.triangle, direction, hit.distance);
     add(i, direction, scene_.looks().emission(vertex.look, vertex.uv) * (chance_share(other) / pdf));
   }
   const Vec3 radiance = reflected_radiance(scene_, vertex, path_, sampler, rays_);

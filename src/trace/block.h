@@ -17,6 +17,7 @@
 #include "trace/tally.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,7 +28,9 @@ class BlockGatherer {
   static constexpr std::size_t texels = 16;  // of a block, at most
   static constexpr int lamp_samples = 8;  // for each path: they cost little, and most of the noise is theirs
 
-  BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options);
+  /// `own`: where the recipe's faults are to be made; null: nowhere.
+  BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
+                const OwnSurface* own);
 
   /// Directions, then SH coefficients.
   [[nodiscard]] std::size_t values() const { return directions_ + coefficients_; }
@@ -43,7 +46,7 @@ class BlockGatherer {
   /// What one texel has in one round.
   struct Here {
     Vec3 position, face;
-    Vec3 tangent, bitangent, normal;  // orthonormal: the frame of SH
+    Vec3 tangent, bitangent, normal;  // orthonormal; `normal` is the shading normal
     float gap = 0;                    // how far it is off the surface
     Vec3* sums = nullptr;             // of this texel in the tally
   };
@@ -57,10 +60,17 @@ class BlockGatherer {
   void shoot(std::size_t i, Sampler& sampler);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
+  void add_below(std::size_t i, const LightSample& light);
+
+  /// From where light counts: over the face, or (zero) from everywhere.
+  [[nodiscard]] Vec3 horizon(std::size_t i) const {
+    return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : here_[i].face;
+  }
 
   const TraceScene& scene_;
   const Sites& sites_;
   const GatherOptions& options_;
+  std::optional<Recipe> recipe_;
   PathOptions path_;
   std::size_t directions_, coefficients_;
   std::vector<Here> here_;  // [texels + 1]: the last is where a texel looks at lamps from

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -38,6 +39,7 @@ class Job {
         target_(target),
         options_(options),
         sites_(*target.surface, target.width, target.height, options.footprint) {
+    if (options.faults.self_reflection) own_.emplace(scene, target);
     for (std::size_t first = 0; first < sites_.texels().size(); first += BlockGatherer::texels) {
       blocks_.push_back(
           {first, std::min(BlockGatherer::texels, sites_.texels().size() - first), 1, 0, {}, 0, {}});
@@ -50,7 +52,7 @@ class Job {
 
   /// Takes a block as far as its plan says. `stage` separates the noise of the pilot from what counts.
   void work(Block& block, std::uint64_t stage) const {
-    BlockGatherer gatherer(scene_, sites_, options_);
+    BlockGatherer gatherer(scene_, sites_, options_, own_ ? &*own_ : nullptr);
     if (!block.tally) block.tally = std::make_unique<BatchTally>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
     const std::span texels(&sites_.texels()[block.first], block.count);
@@ -192,6 +194,7 @@ class Job {
   const GatherTarget& target_;
   const GatherOptions& options_;
   Sites sites_;
+  std::optional<OwnSurface> own_;
   std::vector<Block> blocks_;
 };
 
@@ -276,14 +279,16 @@ class Group {
   const std::function<bool()>& stop_;
 };
 
-}  // namespace
+using Done = std::function<void(std::size_t, Gathered&&)>;
+using Say = std::function<void(const GatherProgress&)>;
+using Stop = std::function<bool()>;
 
-void gather(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
-            const std::function<void(std::size_t, Gathered&&)>& done,
-            const std::function<void(const GatherProgress&)>& progress, const std::function<bool()>& stop) {
+/// False where it was stopped.
+bool gather_once(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
+                 const Done& done, const Say& say, const Stop& stop) {
   double total = 0;  // texels, about: which of them are covered is found out target by target
   for (const GatherTarget& target : targets) total += double(target.width) * target.height;
-  Reporter reporter(std::max(1.0, total), progress);
+  Reporter reporter(std::max(1.0, total), say);
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   for (std::size_t next = 0; next < targets.size();) {
     std::vector<std::unique_ptr<Job>> jobs;
@@ -296,8 +301,47 @@ void gather(const TraceScene& scene, std::span<const GatherTarget> targets, cons
     }
     reporter.advance(uncovered, next - 1);
     Group group(std::move(jobs), options, reporter, stop);
-    if (!arena.execute([&] { return group.run(); })) return;
+    if (!arena.execute([&] { return group.run(); })) return false;
     for (const auto& job : group.jobs()) done(job->index(), job->result());
+  }
+  return true;
+}
+
+/// With self-reflection the light itself depends on the basis vector: one pass for each.
+void gather_each(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
+                 const Done& done, const Say& say, const Stop& stop) {
+  std::vector<Gathered> results(targets.size());
+  for (std::size_t k = 0; k < options.directions.size(); ++k) {
+    GatherOptions one = options;
+    one.directions = {options.directions[k]};
+    one.sh_order = 0;
+    if (one.faults.tilt_clamp) one.reuse = false;  // then what a place sends back depends on who looks
+    const auto merge = [&](std::size_t target, Gathered&& gathered) {
+      Gathered& result = results[target];
+      gathered.directions.insert(gathered.directions.begin(),
+                                 std::make_move_iterator(result.directions.begin()),
+                                 std::make_move_iterator(result.directions.end()));
+      gathered.paths += result.paths;
+      gathered.rays += result.rays;
+      result = std::move(gathered);
+    };
+    const auto say_part = [&](const GatherProgress& progress) {
+      say({(double(k) + progress.share) / double(options.directions.size()), progress.target});
+    };
+    if (!gather_once(scene, targets, one, merge, say ? Say(say_part) : Say(), stop)) return;
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) done(i, std::move(results[i]));
+}
+
+}  // namespace
+
+void gather(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
+            const std::function<void(std::size_t, Gathered&&)>& done,
+            const std::function<void(const GatherProgress&)>& progress, const std::function<bool()>& stop) {
+  if (options.faults.self_reflection) {
+    gather_each(scene, targets, options, done, progress, stop);
+  } else {
+    gather_once(scene, targets, options, done, progress, stop);
   }
 }
 

@@ -17,18 +17,39 @@ float largest(const Vec3& c) {
   return std::max({c.x, c.y, c.z});
 }
 
-/// Irradiance/pi at a vertex from one light that was chosen by chance.
-Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const PathOptions& options,
-                   Sampler& sampler, std::int64_t& rays) {
-  const LightSample light = scene.lights().sample(vertex.start(), vertex.normal, sampler.next3());
-  const float cosine = vertex.normal.dot(light.direction);
-  // Not from under the face, where chance would not find it either.
-  if (!(light.pdf > 0) || !(cosine > 0) || !(vertex.face.dot(light.direction) > 0)) return Vec3(0);
-  ++rays;
-  if (scene.occluded({vertex.start(), light.direction, short_of(light.distance, vertex.gap)})) {
-    return Vec3(0);
+/// What reflects at a vertex, and how much of what comes from a direction.
+struct Reflector {
+  Closure closure;
+  const Recipe* recipe = nullptr;  // null: an ideal diffuse surface
+
+  Reflector(const Vertex& vertex, const PathOptions& options) : closure{vertex.normal, vertex.normal} {
+    if (options.own == nullptr || !options.own->holds(vertex)) return;
+    recipe = options.recipe;
+    closure = recipe->closure(options.own->direction(vertex, options.basis), vertex.normal, vertex.face,
+                              vertex.towards);
   }
-  const float share = light.chance_hits && options.chance_hits ? balance(light.pdf, cosine * inv_pi) : 1;
+  [[nodiscard]] float cosine(const Vec3& direction) const {
+    return recipe == nullptr ? closure.normal.dot(direction) : recipe->cosine(closure, direction);
+  }
+  [[nodiscard]] bool sees_below_face() const { return recipe != nullptr && recipe->faults().below_horizon; }
+};
+
+/// Irradiance/pi at a vertex from one light that was chosen by chance.
+Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflector& reflector,
+                   const PathOptions& options, Sampler& sampler, std::int64_t& rays) {
+  const LightSample light = scene.lights().sample(vertex.start(), reflector.closure.normal, sampler.next3());
+  const float cosine = reflector.cosine(light.direction);
+  // Not from under the face, where chance would not find it either.
+  const bool above = vertex.face.dot(light.direction) > 0;
+  if (!(light.pdf > 0) || !(cosine > 0) || !(above || reflector.sees_below_face())) return Vec3(0);
+  ++rays;
+  const Vec3 start = above ? vertex.start() : vertex.start_below();
+  if (scene.occluded({start, light.direction, short_of(light.distance, vertex.gap)})) return Vec3(0);
+  const float other = reflector.closure.normal.dot(light.direction) * inv_pi;
+  float share = 1;
+  if (light.chance_hits && options.chance_hits) {
+    share = above ? balance(light.pdf, other) : power(light.pdf, other);
+  }
   return light.radiance * (cosine * inv_pi * share / light.pdf);
 }
 
@@ -48,27 +69,30 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     throughput *= scene.looks().albedo(vertex.look, vertex.uv);
     const float survival = bounce < first_roulette ? 1 : std::min(0.98F, largest(throughput));
     if (!(largest(throughput) > 0)) break;
-    if (options.light_sampling) sum += throughput * sampled_light(scene, vertex, options, sampler, rays);
-
+    const Reflector reflector(vertex, options);
+    const Vec3& normal = reflector.closure.normal;
+    if (options.light_sampling) {
+      sum += throughput * sampled_light(scene, vertex, reflector, options, sampler, rays);
+    }
     if (survival < 1) {
       if (!(sampler.next1() < survival)) break;
       throughput /= survival;
     }
-    const Vec3 direction = cosine_direction(vertex.normal, sampler.next2());
+    const Vec3 direction = cosine_direction(normal, sampler.next2());
     if (!(direction.dot(vertex.face) > 0)) break;  // under the face
-    const float pdf = direction.dot(vertex.normal) * inv_pi;
+    const float pdf = direction.dot(normal) * inv_pi;
+    if (reflector.recipe != nullptr) throughput *= reflector.cosine(direction) * inv_pi / pdf;
     const Ray ray{vertex.start(), direction, infinity};
     Hit hit;
     ++rays;
     if (!scene.intersect(ray, hit)) {
-      const float other = lights.world_pdf(ray.origin, vertex.normal, direction);
+      const float other = lights.world_pdf(ray.origin, normal, direction);
       sum += throughput * lights.world(direction) * chance_share(options, pdf, other);
       break;
     }
     const Vertex next = vertex_at(scene, ray, hit);
     if (scene.looks().emits(next.look)) {
-      const float other =
-          lights.triangle_pdf(ray.origin, vertex.normal, hit.triangle, direction, hit.distance);
+      const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
       sum += throughput * scene.looks().emission(next.look, next.uv) * chance_share(options, pdf, other);
     }
     vertex = next;

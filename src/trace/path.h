@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "trace/recipe.h"
 #include "trace/sampler.h"
 #include "trace/scene.h"
 
@@ -18,12 +19,22 @@ namespace rnmbake {
 struct PathOptions {
   int bounces = -1;  // -1: no limit
   bool light_sampling = true, chance_hits = true;
+
+  /// Where the recipe's self-reflection is made: the target, and the basis vector that it has for a normal.
+  const OwnSurface* own = nullptr;
+  const Recipe* recipe = nullptr;
+  Vec3 basis;
 };
 
 /// How much a way to find light counts where the other could have found it too (balance heuristic, Veach
 /// 1997).
 [[nodiscard]] inline float balance(float pdf, float other) {
   return pdf / (pdf + other);
+}
+
+/// Cycles' own weight for light that it samples below a face, where chance finds none (power heuristic).
+[[nodiscard]] inline float power(float pdf, float other) {
+  return pdf * pdf / (pdf * pdf + other * other);
 }
 
 /// Unbiased estimate of the diffusely reflected radiance at `vertex` towards the side that it was met from:

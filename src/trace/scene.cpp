@@ -170,6 +170,9 @@ Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
   const float length = smooth.length();
   vertex.normal = length > 0 ? smooth / (vertex.back ? -length : length) : vertex.face;
   vertex.gap = gap_of(&triangles.position[3 * std::size_t(hit.triangle)]);
+  vertex.towards = -ray.direction;
+  vertex.b1 = hit.b1;
+  vertex.b2 = hit.b2;
   vertex.uv = mixed(triangles.uv, hit);
   vertex.triangle = hit.triangle;
   vertex.look = triangles.look[hit.triangle];

@@ -65,14 +65,18 @@ class TraceScene {
 /// Where a ray met a surface; both normals point to the side that it came from.
 struct Vertex {
   Vec3 position;
-  Vec3 face, normal;  // geometric and smooth, unit
-  float gap = 0;      // rays that leave start so far off the face
-  Vec2 uv;            // of the look's pictures
+  Vec3 face, normal;     // geometric and smooth, unit
+  Vec3 towards;          // where it was met from, unit
+  float gap = 0;         // rays that leave start so far off the face
+  float b1 = 0, b2 = 0;  // barycentric weights of corners 1 and 2
+  Vec2 uv;               // of the look's pictures
   std::uint32_t triangle = 0, look = 0;
   bool back = false;  // met from behind
 
   /// Where rays start: off the face, on the side that it was met from. Lights are looked at from there too.
   [[nodiscard]] Vec3 start() const { return position + face * gap; }
+  /// ... and on the other side.
+  [[nodiscard]] Vec3 start_below() const { return position - face * gap; }
 };
 
 [[nodiscard]] Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit);

@@ -1,0 +1,70 @@
+// trace/recipe.h - what the published recipe (a basis vector as a flat normal map) does to a surface in
+// Cycles.
+//
+// The material's diffuse closure gets the basis normal in place of the surface's. Cycles then bends it (tilt
+// clamp), darkens it (bump shadowing), uses it for the object's own bounces too (self-reflection), and lets
+// lamps in that stand below the face (docs/reference.md). Each can be left out.
+#pragma once
+
+#include "base/math.h"
+#include "scene/surface.h"
+#include "trace/gather.h"
+#include "trace/scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// A diffuse closure at a place; all vectors unit, on the side that the place is seen from.
+struct Closure {
+  Vec3 normal;          // of the closure
+  Vec3 smooth;          // the shading normal
+  bool faulty = false;  // whether the recipe has a hand in it
+};
+
+class Recipe {
+ public:
+  /// Throws Error(usage) where the version is no version.
+  Recipe(const RecipeFaults& faults, const std::string& blender_version);
+
+  /// `bent`: the basis normal in world space; `face`: geometric; `towards`: where the place is seen from.
+  [[nodiscard]] Closure closure(const Vec3& bent, const Vec3& smooth, const Vec3& face,
+                                const Vec3& towards) const;
+
+  /// Clamped cosine of the closure, bump shadowing included.
+  [[nodiscard]] float cosine(const Closure& closure, const Vec3& direction) const {
+    const float plain = closure.normal.dot(direction);
+    if (!(plain > 0)) return 0;
+    return closure.faulty && faults_.bump_shadowing ? plain * shadowing(closure, direction) : plain;
+  }
+  [[nodiscard]] const RecipeFaults& faults() const { return faults_; }
+
+ private:
+  [[nodiscard]] float shadowing(const Closure& closure, const Vec3& direction) const;
+
+  RecipeFaults faults_;
+  bool microfacets_ = false;  // Blender 4.5 on: Conty Estevez et al. 2019 in place of a cubic
+};
+
+/// A target as the rays of its own texels meet it, for one basis vector.
+class OwnSurface {
+ public:
+  OwnSurface(const TraceScene& scene, const GatherTarget& target);
+
+  [[nodiscard]] bool holds(const Vertex& vertex) const { return place_of(vertex) != absent; }
+  /// World-space direction of a tangent-space vector at a vertex that it holds, on the side that is seen.
+  [[nodiscard]] Vec3 direction(const Vertex& vertex, const Vec3& basis) const;
+
+ private:
+  static constexpr std::uint32_t absent = ~std::uint32_t{0};
+  [[nodiscard]] std::uint32_t place_of(const Vertex& vertex) const;
+
+  const TraceScene& scene_;
+  const Surface& surface_;
+  std::uint32_t object_;
+  std::vector<std::uint32_t> of_source_;  // number of the mesh's triangle -> of the surface's
+};
+
+}  // namespace rnmbake

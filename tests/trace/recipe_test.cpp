@@ -1,0 +1,79 @@
+#include "trace/recipe.h"
+
+#include "trace/trace_scenes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+RecipeFaults all_faults(const std::string& version) {
+  RecipeFaults faults;
+  faults.tilt_clamp = version == "3.4.1";
+  faults.bump_shadowing = faults.self_reflection = faults.below_horizon = true;
+  return faults;
+}
+
+GatherOptions recipe_options(const std::string& version, int samples) {
+  GatherOptions options;
+  options.directions = flat_and_rnm();
+  options.samples = samples;
+  options.footprint = Footprint::centre;
+  options.faults = all_faults(version);
+  options.blender_version = version;
+  return options;
+}
+
+/// What each Blender's bake of the recipe gives (docs/accuracy.md), basis rnm0, sun in the plane of x and z.
+TEST(Recipe, SunsComeOutAsInEachBlender) {
+  struct Row {
+    std::string version;
+    std::array<double, 5> values;  // at 0, 54.74, 70, 80, 85 degrees
+  };
+  const std::array<double, 5> angles{0, 54.7356, 70, 80, 85};
+  for (const Row& row : {Row{"3.4.1", {0.7106, 0.9297, 0.6011, 0.2956, 0.1392}},
+                         Row{"4.3.2", {0.5773, 1.0000, 0.7328, 0.3675, 0.1727}},
+                         Row{"5.2.2", {0.5773, 0.8990, 0.7148, -1, 0.2540}}}) {
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      if (row.values[i] < 0) continue;
+      Exchange scene;
+      add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+      LightInfo sun = light("SUN", 1, {{"angle", 0}});
+      const double angle = angles[i] * pi / 180;
+      sun.to_world.setAxisAngle(Vec3d(0, 1, 0), angle);  // the sun shines along -z of its own axes
+      scene.survey.lights.push_back(sun);
+      const Gathered gathered = gather_one(scene, 0, recipe_options(row.version, 16), 2, 2);
+      EXPECT_NEAR(gathered.directions[1].mean[0] * pi, row.values[i], 1e-3)
+          << row.version << " at " << angles[i];
+      EXPECT_NEAR(gathered.directions[0].mean[0] * pi, std::cos(angle), 1e-3);
+    }
+  }
+}
+
+TEST(Recipe, UniformSkyComesOutAsInEachBlender) {
+  for (const auto& [version, value] : {std::pair{"3.4.1", 0.7416}, {"4.3.2", 0.6847}, {"5.2.2", 0.6330}}) {
+    Exchange scene;
+    add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+    scene.world.radiance = Vec3(1);
+    const Gathered gathered = gather_one(scene, 0, recipe_options(version, 1 << 14), 4, 4);
+    EXPECT_LT(gathered.directions[1].mean_error[0], 5e-4);
+    EXPECT_NEAR(gathered.directions[1].mean[0], value, 2e-3) << version;
+    EXPECT_NEAR(gathered.directions[0].mean[0], 1, 2e-3) << version;
+  }
+}
+
+/// Self-reflection: expected without it is 3.9434.
+TEST(Recipe, FurnaceComesOutAsInEachBlender) {
+  for (const auto& [version, value] : {std::pair{"3.4.1", 1.9187}, {"4.3.2", 1.5167}, {"5.2.2", 1.2841}}) {
+    Exchange scene;
+    add_object(scene, "room", room(1), Vec3(0.8F), Vec3(1));
+    const Gathered gathered = gather_one(scene, 0, recipe_options(version, 1 << 12), 12, 2);
+    EXPECT_NEAR(gathered.directions[1].mean[0], value, 0.01 * value) << version;
+    EXPECT_NEAR(gathered.directions[0].mean[0], 5, 0.03) << version;
+  }
+}
+
+}  // namespace
+}  // namespace rnmbake
