@@ -20,6 +20,13 @@ std::string flag_of(const Given& given) {
   return fmt::format("{} {}", given.setting->flag(), shell_word(text_of(given.value)));
 }
 
+/// Whether somebody typed it: what one setting turns off in another has that one's place.
+bool was_typed(const Given& given) {
+  if (given.source == SettingSource::environment) return true;
+  return given.source == SettingSource::flag &&
+         given.where.find(given.setting->flag().substr(2)) != std::string::npos;
+}
+
 /// "hall.toml:12" -> "hall.toml".
 std::string project_of(const ResolvedConfig& config) {
   for (const Given& given : config.values()) {
@@ -47,7 +54,7 @@ std::string command_line(const std::string& command, const ResolvedConfig& confi
                                  shell_word(project.empty() ? config.globals.scene.file.string() : project));
   for (const Given& given : config.values()) {
     const bool is_scene = given.setting->key == "file" && project.empty();
-    if (given.source >= SettingSource::environment && !is_scene) line += fmt::format(" {}", flag_of(given));
+    if (was_typed(given) && !is_scene) line += fmt::format(" {}", flag_of(given));
   }
   return line;
 }

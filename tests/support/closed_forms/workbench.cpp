@@ -63,10 +63,18 @@ fs::path Workbench::build(const SceneChoice& scene) {
 }
 
 Baked Workbench::bake(const fs::path& blend, const Words& flags) {
+  return lightmaps("bake", blend, flags);
+}
+
+Baked Workbench::reference(const fs::path& scene, const Words& flags) {
+  return lightmaps("reference", scene, flags);
+}
+
+Baked Workbench::lightmaps(const char* command, const fs::path& scene, const Words& flags) {
   const fs::path folder = new_path("baked");
   Words argv{binary_.string(),
-             "bake",
-             blend.string(),
+             command,
+             scene.string(),
              "-o",
              folder.string(),
              "--blender",
@@ -80,6 +88,14 @@ Baked Workbench::bake(const fs::path& blend, const Words& flags) {
   argv.insert(argv.end(), flags.begin(), flags.end());
   run_or_fail(argv);
   return Baked(folder);
+}
+
+fs::path Workbench::exported(const fs::path& blend) {
+  fs::path scene = new_path("exported");
+  scene += ".rnmscene";
+  run_or_fail({binary_.string(), "export", blend.string(), "-o", scene.string(), "--blender",
+               blender_.executable.string(), "--scripts", RNMBAKE_SOURCE_DIR "/blender_scripts"});
+  return scene;
 }
 
 Survey Workbench::survey(const fs::path& blend) {

@@ -22,7 +22,7 @@ struct SceneChoice {
   Words parameters;
 };
 
-/// The lightmaps of one run of `rnmbake bake`.
+/// The lightmaps of one run of `rnmbake bake` or `rnmbake reference`.
 class Baked {
  public:
   explicit Baked(const std::filesystem::path& folder);
@@ -49,10 +49,17 @@ class Workbench {
   /// Bakes with 32-bit output, undilated, plus `flags`.
   [[nodiscard]] Baked bake(const std::filesystem::path& blend, const Words& flags);
 
+  /// Traces the same way.
+  [[nodiscard]] Baked reference(const std::filesystem::path& scene, const Words& flags);
+
+  /// The .rnmscene of a scene.
+  [[nodiscard]] std::filesystem::path exported(const std::filesystem::path& blend);
+
   [[nodiscard]] Survey survey(const std::filesystem::path& blend);
 
  private:
   std::filesystem::path new_path(const std::string& name);
+  Baked lightmaps(const char* command, const std::filesystem::path& scene, const Words& flags);
 
   TempFolder folder_;
   std::filesystem::path binary_;
