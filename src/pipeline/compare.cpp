@@ -273,6 +273,7 @@ Report compare_lightmaps(const CompareOptions& options) {
   name_sides(options, report);
   report.candidate_only = without_partner(options, candidate.folder, reference.folder);
   report.reference_only = without_partner(options, reference.folder, candidate.folder);
+  report.notes = reference.folder.notes;
   report.versions.emplace_back("rnmbake", version);
   tell_of_side(report.candidate_label, load_lightmap(*pairs.front().first), report);
   tell_of_side(report.reference_label, load_lightmap(*pairs.front().second), report);

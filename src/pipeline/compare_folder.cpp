@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {
@@ -36,6 +37,18 @@ LightmapPlace place_of(const std::filesystem::path& manifest, const json& entry)
   return place;
 }
 
+/// What is outside the model besides objects, which carry their own list: "light 'Lamp': node tree".
+std::vector<std::string> notes_of(const json& manifest) {
+  std::vector<std::string> notes;
+  for (const json& outside : manifest.value("outside_model", json::array())) {
+    const auto owner = outside.at("owner").get<std::string>();
+    if (owner.starts_with("object ")) continue;
+    notes.push_back(fmt::format("outside the reference's model: {}: {}", owner,
+                                fmt::join(outside.at("what").get<std::vector<std::string>>(), ", ")));
+  }
+  return notes;
+}
+
 LightmapFolder read_manifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "manifest.json";
   if (!std::filesystem::exists(file)) {
@@ -44,9 +57,10 @@ LightmapFolder read_manifest(const std::filesystem::path& folder) {
         "{} has no manifest.json; name a folder that rnmbake bake or rnmbake reference finished, or one .exr",
         folder.string());
   }
-  LightmapFolder found{folder, false, {}, {}};
+  LightmapFolder found{folder, false, {}, {}, {}};
   try {
     const json manifest = json::parse(read_text(file));
+    found.notes = notes_of(manifest);
     for (const json& entry : manifest.at("objects")) {
       LightmapPlace place = place_of(file, entry);
       if (place.files.empty()) {
@@ -98,7 +112,7 @@ LightmapFolder open_lightmaps(const std::filesystem::path& path) {
   LightmapPlace place{path.stem().string(), {path}, {}};
   const LoadedLightmap lightmap = load_lightmap(place);
   if (!lightmap.metadata.object.empty()) place.key = lightmap.metadata.object;
-  return {path, true, {place}, {}};
+  return {path, true, {place}, {}, {}};
 }
 
 LoadedLightmap load_lightmap(const LightmapPlace& place) {

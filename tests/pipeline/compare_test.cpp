@@ -257,6 +257,18 @@ TEST_F(Compare, RefusesWhatIsNoOutputOfOurs) {
   expect_refused({a, {at("empty"), {}, {}}}, ExitCode::io, {"gone.exr"});
 }
 
+TEST_F(Compare, TellsWhatTheReferenceCouldNotFollow) {
+  const auto a = folder("a", {{"floor"}}), b = folder("b", {{"floor"}});
+  auto manifest = nlohmann::json::parse(read_text(b.path / "manifest.json"));
+  manifest["objects"][0]["outside_model"] = {"glossy", "volume"};
+  manifest["outside_model"] = {{{"owner", "object 'floor'"}, {"what", {"glossy", "volume"}}},
+                               {{"owner", "light 'Lamp'"}, {"what", {"node tree"}}}};
+  write_atomically(b.path / "manifest.json", manifest.dump());
+  const Report report = compare_lightmaps({a, b});
+  EXPECT_EQ(report.objects[0].outside_model, (std::vector<std::string>{"glossy", "volume"}));
+  EXPECT_EQ(report.notes, std::vector<std::string>{"outside the reference's model: light 'Lamp': node tree"});
+}
+
 TEST_F(Compare, FailedObjectsHaveNoPartner) {
   const auto a = folder("a", {{"floor"}, {"wall"}}), b = folder("b", {{"floor"}});
   auto manifest = nlohmann::json::parse(read_text(b.path / "manifest.json"));
