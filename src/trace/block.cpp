@@ -31,9 +31,10 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
       path_{options.bounces, options.light_sampling, options.chance_hits, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
-      here_(texels + 1),
-      lobes_(texels + 1),
-      normals_((texels + 1) * options.directions.size()),
+      framed_(coefficients_ > 0 || options.faults.any() || !few_directions()),
+      here_(texels + lamp_samples),
+      lobes_(texels + lamp_samples),
+      normals_((texels + lamp_samples) * options.directions.size()),
       found_(texels),
       back_faces_(texels) {
   if (!options.faults.any()) return;
@@ -52,13 +53,9 @@ void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::ui
     for (std::size_t i = 0; i < block.size(); ++i) {
       Sampler sampler(hash_of(seed, 2 * i), static_cast<std::uint32_t>(s));
       set_out(i, block[i], sampler);
+      look_around(i);
       shoot(i, sampler);
-      here_[texels].sums = here_[i].sums;
-      for (int lamp = 0; lamps && lamp < lamp_samples; ++lamp) {
-        Sampler for_lamps(hash_of(seed, 2 * i + 1), static_cast<std::uint32_t>(s * lamp_samples + lamp));
-        set_out(texels, block[i], for_lamps);
-        sample_lamp(texels, for_lamps);
-      }
+      if (lamps) sample_lamps(i, block[i], hash_of(seed, 2 * i + 1), s);
     }
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (found_[i].radiance != Vec3(0)) share(i, block.size());
@@ -67,14 +64,14 @@ void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::ui
   tally.end_batch(samples);
 }
 
-/// Chooses the place in the texel, and what directions to look in from there.
+/// Chooses the place in the texel.
 void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& sampler) {
   const Place place = sites_.place(texel, sampler.next2());
   Here& here = here_[i];
   here.face = place.face;
   here.gap = relative_gap * largest_coordinate(place.position);
   here.position = place.position + place.face * here.gap;
-  if (coefficients_ > 0 || recipe_) {
+  if (framed_) {
     here.normal = place.normal.normalized();
     here.tangent = (place.tangent - here.normal * place.tangent.dot(here.normal)).normalized();
     here.bitangent = here.normal.cross(here.tangent) * place.sign;
@@ -85,14 +82,20 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
     normals[k] = (place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized();
     if (recipe_) normals[k] = recipe_->closure(normals[k], here.normal, here.face, here.face).normal;
   }
-  const bool few = directions_ > 0 && directions_ < Lobes::most;
-  Lobes lobes(place.face, coefficients_ > 0 || !few);
+}
+
+/// Prepares the choice of directions from there.
+void BlockGatherer::look_around(std::size_t i) {
+  const Here& here = here_[i];
+  const Vec3* normals = &normals_[i * directions_];
+  const bool few = few_directions();
+  Lobes lobes(here.face, coefficients_ > 0 || !few);
   if (few) {
     for (std::size_t k = 0; k < directions_; ++k) lobes.add(normals[k]);
   } else {
-    lobes.add(place.normal.normalized());
+    lobes.add(here.normal);
     for (const Vec3& b : rnm_basis()) {
-      lobes.add((place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized());
+      lobes.add((here.tangent * b.x + here.bitangent * b.y + here.normal * b.z).normalized());
     }
   }
   lobes_[i] = lobes;
@@ -114,21 +117,42 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
   for (std::size_t c = 0; c < coefficients_; ++c) here.sums[directions_ + c] += light * y[c];
 }
 
-void BlockGatherer::sample_lamp(std::size_t i, Sampler& sampler) {
-  const Here& here = here_[i];
-  const bool below_too = recipe_ && recipe_->faults().below_horizon;
-  const LightSample light = scene_.lights().sample(here.position, horizon(i), sampler.next3());
-  if (!(light.pdf > 0)) return;
-  if (!(light.direction.dot(here.face) > 0)) {
-    if (below_too) add_below(i, light);
-    return;
+/// From several places in the texel, each at one lamp.
+void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uint64_t seed, int sample) {
+  std::array<Ray, lamp_samples> rays;
+  std::array<LightSample, lamp_samples> lights;
+  std::array<std::size_t, lamp_samples> from{};
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < lamp_samples; ++k) {
+    Sampler sampler(seed, static_cast<std::uint32_t>(std::size_t(sample) * lamp_samples + k));
+    const std::size_t slot = texels + k;
+    Here& here = here_[slot];
+    here.sums = here_[i].sums;
+    set_out(slot, texel, sampler);
+    const LightSample light = scene_.lights().sample(here.position, horizon(slot), sampler.next3());
+    if (!(light.pdf > 0)) continue;
+    if (!(light.direction.dot(here.face) > 0)) {
+      if (recipe_ && recipe_->faults().below_horizon) add_below(slot, light);
+      continue;
+    }
+    rays[count] = {here.position, light.direction, short_of(light.distance, here.gap)};
+    lights[count] = light;
+    from[count++] = slot;
   }
-  ++rays_;
-  if (scene_.occluded({here.position, light.direction, short_of(light.distance, here.gap)})) return;
-  const bool both = light.chance_hits && options_.chance_hits;
-  const float density = light.pdf * lamp_samples;
-  const float share = both ? balance(density, lobes_[i].pdf(light.direction)) : 1;
-  add(i, light.direction, light.radiance * (share / density));
+  if (count == 0) return;
+  rays_ += static_cast<std::int64_t>(count);
+  const unsigned blocked = scene_.occluded(std::span(rays.data(), count));
+  for (std::size_t k = 0; k < count; ++k) {
+    if ((blocked >> k & 1U) != 0) continue;
+    const LightSample& light = lights[k];
+    const float density = light.pdf * lamp_samples;
+    float share = 1;
+    if (light.chance_hits && options_.chance_hits) {
+      look_around(from[k]);
+      share = balance(density, lobes_[from[k]].pdf(light.direction));
+    }
+    add(from[k], light.direction, light.radiance * (share / density));
+  }
 }
 
 /// A lamp below the face: Cycles asks only whether it is above the horizon of the closure.
@@ -190,28 +214,41 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
 /// Gives what texel `finder` found to every texel that sees it.
 void BlockGatherer::share(std::size_t finder, std::size_t count) {
   const Found& found = found_[finder];
-  std::array<Vec3, texels> directions;
-  std::array<float, texels> solid_angles{};  // per area at the place; 0: not seen
-  float density = 0;
+  std::array<Ray, texels> rays;
+  std::array<std::size_t, texels> who{};  // may see it
+  std::size_t asked = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 way = found.position - here_[i].position;
-    const float back = -way.dot(found.face);
-    if (!(back > 0) || !(way.dot(here_[i].face) > 0)) continue;
-    if (i != finder) {
-      const Vec3 path = found.target - here_[i].position;
-      const float length = path.length();
-      ++rays_;
-      if (scene_.occluded({here_[i].position, path / length, length})) continue;
+    if (!(way.dot(found.face) < 0) || !(way.dot(here_[i].face) > 0) || i == finder) continue;
+    const Vec3 path = found.target - here_[i].position;
+    const float length = path.length();
+    rays[asked] = {here_[i].position, path / length, length};
+    who[asked++] = i;
+  }
+  rays_ += static_cast<std::int64_t>(asked);
+  std::size_t seeing = 0;
+  for (std::size_t first = 0; first < asked; first += TraceScene::packet) {
+    const std::size_t size = std::min(TraceScene::packet, asked - first);
+    const unsigned blocked = scene_.occluded(std::span(&rays[first], size));
+    for (std::size_t k = 0; k < size; ++k) {
+      if ((blocked >> k & 1U) == 0) who[seeing++] = who[first + k];
     }
+  }
+  who[seeing++] = finder;
+
+  std::array<Vec3, texels> directions;
+  std::array<float, texels> solid_angles{};  // for each area at the place
+  float density = 0;
+  for (std::size_t k = 0; k < seeing; ++k) {
+    const Vec3 way = found.position - here_[who[k]].position;
     const float distance2 = way.dot(way), distance = std::sqrt(distance2);
-    directions[i] = way / distance;
-    solid_angles[i] = back / (distance * distance2);
-    density += lobes_[i].pdf(directions[i]) * solid_angles[i];
+    directions[k] = way / distance;
+    solid_angles[k] = std::max(0.0F, -way.dot(found.face)) / (distance * distance2);
+    density += lobes_[who[k]].pdf(directions[k]) * solid_angles[k];
   }
   if (!(density > 0) || !std::isfinite(density)) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (solid_angles[i] > 0) add(i, directions[i], found.radiance * (solid_angles[i] / density));
-  }
+  for (std::size_t k = 0; k < seeing; ++k)
+    add(who[k], directions[k], found.radiance * (solid_angles[k] / density));
 }
 
 }  // namespace rnmbake

@@ -26,7 +26,8 @@ namespace rnmbake {
 class BlockGatherer {
  public:
   static constexpr std::size_t texels = 16;  // of a block, at most
-  static constexpr int lamp_samples = 8;  // for each path: they cost little, and most of the noise is theirs
+  static constexpr std::size_t lamp_samples =
+      8;  // for each path: they cost little, and most of the noise is theirs
 
   /// `own`: where the recipe's faults are to be made; null: nowhere.
   BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
@@ -56,12 +57,15 @@ class BlockGatherer {
   };
 
   void set_out(std::size_t i, const TexelSite& texel, Sampler& sampler);
-  void sample_lamp(std::size_t i, Sampler& sampler);
+  void look_around(std::size_t i);
+  void sample_lamps(std::size_t i, const TexelSite& texel, std::uint64_t seed, int sample);
   void shoot(std::size_t i, Sampler& sampler);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
   void add_below(std::size_t i, const LightSample& light);
 
+  /// Few enough for a lobe each.
+  [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
   /// From where light counts: over the face, or (zero) from everywhere.
   [[nodiscard]] Vec3 horizon(std::size_t i) const {
     return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : here_[i].face;
@@ -73,9 +77,10 @@ class BlockGatherer {
   std::optional<Recipe> recipe_;
   PathOptions path_;
   std::size_t directions_, coefficients_;
-  std::vector<Here> here_;  // [texels + 1]: the last is where a texel looks at lamps from
+  bool framed_;             // whether `Here` needs its frame
+  std::vector<Here> here_;  // [texels + lamp_samples]: the last are where one texel looks at lamps from
   std::vector<Lobes> lobes_;
-  std::vector<Vec3> normals_;  // [texels + 1][directions], world space
+  std::vector<Vec3> normals_;  // [texels + lamp_samples][directions], world space
   std::vector<Found> found_;
   std::int64_t rays_ = 0;
   std::vector<std::int64_t> back_faces_;

@@ -32,4 +32,15 @@ inline void embree_occluded(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
+/// `valid`: -1 for each of the eight rays that is there, else 0.
+inline void embree_occluded8(const int* valid, RTCScene scene, RTCRay8& rays) {
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  rtcOccluded8(valid, scene, &rays);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
+
 }  // namespace rnmbake

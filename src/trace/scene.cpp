@@ -5,6 +5,7 @@
 #include "trace/embree.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -129,6 +130,32 @@ bool TraceScene::occluded(const Ray& ray) const {
   RTCRay query = to_embree(ray);
   embree_occluded(accelerator_->scene, query);
   return query.tfar < 0;
+}
+
+unsigned TraceScene::occluded(std::span<const Ray> rays) const {
+  if (rays.size() == 1) return occluded(rays[0]) ? 1 : 0;
+  alignas(32) RTCRay8 query;
+  alignas(32) std::array<int, packet> valid{};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
+    valid[i] = -1;
+    query.org_x[i] = ray.origin.x;
+    query.org_y[i] = ray.origin.y;
+    query.org_z[i] = ray.origin.z;
+    query.dir_x[i] = ray.direction.x;
+    query.dir_y[i] = ray.direction.y;
+    query.dir_z[i] = ray.direction.z;
+    query.tnear[i] = 0;
+    query.tfar[i] = ray.to;
+    query.time[i] = 0;
+    query.mask[i] = all_rays;
+    query.flags[i] = 0;
+  }
+  embree_occluded8(valid.data(), accelerator_->scene, query);
+  unsigned blocked = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) blocked |= (query.tfar[i] < 0 ? 1U : 0U) << i;
+  return blocked;
 }
 
 double TraceScene::time_bare(const RayLog& log, int threads) const {

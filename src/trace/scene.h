@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace rnmbake {
@@ -38,6 +39,9 @@ class TraceScene {
 
   [[nodiscard]] bool intersect(const Ray& ray, Hit& hit) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
+  /// For rays that start or end near each other, at most 8 at a time: bit i says whether rays[i] is occluded.
+  [[nodiscard]] unsigned occluded(std::span<const Ray> rays) const;
+  static constexpr std::size_t packet = 8;
 
   [[nodiscard]] const Exchange& exchange() const { return exchange_; }
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
