@@ -129,7 +129,12 @@ def write_picture(file, image, largest_side):
 
 
 def write_pixels(file, image):
-    """Width, height and the offset of the pixels in the file: RGB, no negative ones, top row first."""
+    """Width, height and the offset of the pixels in the file."""
+    return *image.size, file.append(read_colors(image))
+
+
+def read_colors(image):
+    """RGB, no negative ones, top row first."""
     width, height = image.size
     channels = image.channels
     pixels = array("f", bytes(4 * channels * width * height))
@@ -142,4 +147,4 @@ def write_pixels(file, image):
     flipped = array("f")
     for row in reversed(range(height)):
         flipped.extend(colors[3 * width * row:3 * width * (row + 1)])
-    return width, height, file.append(flipped)
+    return flipped

@@ -10,10 +10,15 @@ import bpy
 
 from scene_ops.describe import describe_world
 from scene_ops.describe_nodes import reachable_nodes, tree_source
-from scene_ops.export_looks import write_pixels
+from scene_ops.export_looks import read_colors
 
-WIDTH = 2048  # across the horizon: three pixels for a sun of half a degree
-SAMPLES = 64
+WIDTH = 2048  # across the horizon: three texels for a sun of half a degree
+HEIGHT = WIDTH // 2
+SAMPLES = 16
+# A sun is a few texels that hold most of the light: all around such ones is rendered again, with more samples.
+BRIGHT = 1e-4  # of the whole world's light, in one texel
+SAMPLES_AROUND, MOST_SAMPLES = 4096, 1 << 26  # for a texel; for all of them
+RIM = 2  # texels
 BLACK = [0.0, 0.0, 0.0]
 
 # What a diffuse bounce gets from a Light Path node; everything else that it asks is 0.
@@ -56,16 +61,54 @@ def render(task, like, file):
     # The middle of the picture is +x and its top +z, as in an environment texture.
     scene.camera.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
     scene.collection.objects.link(scene.camera)
+    settle(scene)
+    colors = expose(task, scene, SAMPLES)
+    box = bright_box(colors)
+    if box:
+        refine(task, scene, colors, box)
+    bpy.data.scenes.remove(scene)
+    return {"width": WIDTH, "height": HEIGHT, "form": "f32", "offset": file.append(colors), "name": "world"}
+
+
+def expose(task, scene, samples):
+    """One render: RGB, top row first."""
     path = task.path("world.exr")
-    settle(scene, path)
+    scene.render.filepath, scene.cycles.samples = path, samples
     bpy.ops.render.render(write_still=True, scene=scene.name)
     image = bpy.data.images.load(path)
     image.colorspace_settings.name = "Non-Color"
-    width, height, offset = write_pixels(file, image)
+    colors = read_colors(image)
     bpy.data.images.remove(image)
-    bpy.data.scenes.remove(scene)
     os.remove(path)
-    return {"width": width, "height": height, "form": "f32", "offset": offset, "name": "world"}
+    return colors
+
+
+def bright_box(colors):
+    """(left, top, right, bottom) around all texels that hold much of the light; None where it is spread evenly."""
+    rows = [colors[3 * WIDTH * row:3 * WIDTH * (row + 1)] for row in range(HEIGHT)]
+    shares = [math.sin(math.pi * (row + 0.5) / HEIGHT) for row in range(HEIGHT)]  # of solid angle
+    total = math.fsum(share * math.fsum(row) for row, share in zip(rows, shares))
+    found = [(3 * total * BRIGHT / share, number) for number, share in enumerate(shares)]
+    found = [(least, number) for least, number in found if 0 < least < max(rows[number])]
+    if not found:
+        return None
+    columns = {place // 3 for least, number in found for place, value in enumerate(rows[number]) if value > least}
+    return (max(min(columns) - RIM, 0), max(found[0][1] - RIM, 0),
+            min(max(columns) + RIM + 1, WIDTH), min(found[-1][1] + RIM + 1, HEIGHT))
+
+
+def refine(task, scene, colors, box):
+    """Render the inside of the box again."""
+    left, top, right, bottom = box
+    render = scene.render
+    render.use_border, render.use_crop_to_border = True, False
+    render.border_min_x, render.border_max_x = left / WIDTH, right / WIDTH
+    render.border_min_y, render.border_max_y = 1 - bottom / HEIGHT, 1 - top / HEIGHT
+    samples = min(SAMPLES_AROUND, MOST_SAMPLES // ((right - left) * (bottom - top)))
+    better = expose(task, scene, max(samples, SAMPLES))
+    for row in range(top, bottom):
+        start, end = 3 * (WIDTH * row + left), 3 * (WIDTH * row + right)
+        colors[start:end] = better[start:end]
 
 
 def panorama_camera():
@@ -76,17 +119,19 @@ def panorama_camera():
     return camera
 
 
-def settle(scene, path):
+def settle(scene):
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
-    render.resolution_x, render.resolution_y, render.resolution_percentage = WIDTH, WIDTH // 2, 100
+    render.resolution_x, render.resolution_y, render.resolution_percentage = WIDTH, HEIGHT, 100
     render.film_transparent = render.use_compositing = render.use_sequencer = False
-    render.filepath, render.use_file_extension = path, False
+    render.use_file_extension = False
     render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
     render.image_settings.color_mode = "RGB"
-    cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = SAMPLES, False, False
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.film_exposure = 1
+    if bpy.app.version < (3, 5):
+        cycles.sampling_pattern = "SOBOL"
     cycles.pixel_filter_type = "BOX"  # the mean over the pixel
 
 

@@ -6,6 +6,7 @@ things.blend: one thing of every kind that an export has to carry, or has to say
 import json
 import math
 import os
+import statistics
 import sys
 
 import bpy
@@ -91,7 +92,7 @@ def white_cube():
 
 
 def bake_faces(ob):
-    """E/pi of every face, as Cycles sees it."""
+    """E/pi of every face, as Cycles sees it, and its standard error: texels of a face differ by noise alone."""
     scene, image = bpy.context.scene, new_image("bake", 6 * FACE, FACE)
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 1024, False, False
@@ -110,8 +111,9 @@ def bake_faces(ob):
     faces = []
     for number, normal in enumerate(AXES):
         texels = [4 * (row * 6 * FACE + number * FACE + column) for row in range(FACE) for column in range(FACE)]
-        mean = [math.fsum(pixels[texel + channel] for texel in texels) / len(texels) for channel in range(3)]
-        faces.append({"normal": normal, "radiance": mean})
+        values = [[pixels[texel + channel] for texel in texels] for channel in range(3)]
+        faces.append({"normal": normal, "radiance": [statistics.fmean(channel) for channel in values],
+                      "error": [statistics.stdev(channel) / math.sqrt(len(texels)) for channel in values]})
     return faces
 
 
