@@ -79,7 +79,7 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   Vec3* normals = &normals_[i * directions_];
   for (std::size_t k = 0; k < directions_; ++k) {
     const Vec3& b = options_.directions[k].direction;
-    normals[k] = (place.tangent * b.x + place.bitangent * b.y + place.normal * b.z).normalized();
+    normals[k] = unit(place.tangent * b.x + place.bitangent * b.y + place.normal * b.z);
     if (recipe_) normals[k] = recipe_->closure(normals[k], here.normal, here.face, here.face).normal;
   }
 }

@@ -23,8 +23,7 @@ inline void make_axes(const Vec3& n, Vec3& x, Vec3& y) {
   const float r = std::sqrt(u.x), phi = static_cast<float>(2 * pi) * u.y;
   Vec3 x, y;
   make_axes(n, x, y);
-  return (x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + n * std::sqrt(std::max(0.0F, 1 - u.x)))
-      .normalized();
+  return unit(x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + n * std::sqrt(std::max(0.0F, 1 - u.x)));
 }
 
 /// An equal mixture of cosine lobes, the part under the face mirrored up; with `uniform` one lobe more that

@@ -121,7 +121,7 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
   hit.b1 = query.hit.u;
   hit.b2 = query.hit.v;
   hit.distance = query.ray.tfar;
-  hit.normal = Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+  hit.normal = unit(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
   return true;
 }
 
