@@ -91,7 +91,8 @@ class Finder {
         sum += brightness(looks_.emission(look, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
       }
     }
-    return sum / (steps * (steps + 1) / 2);
+    constexpr int places = steps * (steps + 1) / 2;
+    return sum / places;
   }
 
   const Exchange& scene_;

@@ -8,6 +8,7 @@
 namespace rnmbake {
 namespace {
 
+constexpr float far = 0.01F;            // side^2 / distance^2
 constexpr double smallest = 1e-5;       // steradians: below, the sum of four angles loses too many digits
 constexpr float right_angle = 1e-4F;    // the largest cosine between the sides
 constexpr float nearest_plane = 1e-4F;  // distance to the plane as a share of the sides
@@ -23,6 +24,9 @@ SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& 
   if (std::abs(x_.dot(y_)) > right_angle) return;
   z_ = x_.cross(y_);
   const Vec3 way = centre - point;
+  // Seen from afar places even by area are as good, and cheaper.
+  const float gap = way.length() - (length_u + length_v);
+  if (gap > 0 && 4 * length_u * length_v < far * gap * gap) return;
   z0_ = way.dot(z_);
   if (z0_ > 0) {
     z_ = -z_;

@@ -5,15 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace rnmbake {
 namespace {
 
 constexpr int bins = 12;
-constexpr int deepest_guided = 40;  // below, halves of the same count
-constexpr std::uint32_t most_with_cones =
-    4096;  // so many shine everywhere, and their cones take long to join
+constexpr int deepest_guided = 40;              // below, halves of the same count
+constexpr std::uint32_t most_with_cones = 256;  // more shine everywhere, and joining cones is slow
 
 /// The cone of normals around two cones.
 void join_cones(LightBounds& a, const LightBounds& b) {
@@ -80,15 +78,20 @@ double cost(const LightBounds& bounds, const Vec3& whole, int axis) {
 
 class LightTreeBuilder {
  public:
-  LightTreeBuilder(LightTree& tree, const std::vector<LightBounds>& lights) : tree_(tree), lights_(lights) {
-    order_.resize(lights.size());
-    std::iota(order_.begin(), order_.end(), 0U);
+  LightTreeBuilder(LightTree& tree, const std::vector<LightBounds>& lights) : tree_(tree) {
+    lights_.reserve(lights.size());
+    for (const LightBounds& light : lights)
+      lights_.push_back({light, static_cast<std::uint32_t>(lights_.size())});
     groups_.reserve(2 * lights.size());
     tree_.places_.resize(lights.size());
     widen(halve(0, static_cast<std::uint32_t>(lights.size()), 0), {});
   }
 
  private:
+  struct Light {
+    LightBounds bounds;
+    std::uint32_t index = 0;  // the caller's
+  };
   /// One light, or two groups.
   struct Group {
     LightBounds bounds;
@@ -118,7 +121,7 @@ class LightTreeBuilder {
 
   std::uint32_t halve(std::uint32_t first, std::uint32_t last, int depth) {
     if (last - first == 1) {
-      groups_.push_back({lights_[order_[first]], order_[first], single});
+      groups_.push_back({lights_[first].bounds, lights_[first].index, single});
       return static_cast<std::uint32_t>(groups_.size()) - 1;
     }
     const std::uint32_t middle = divide(first, last, depth);
@@ -131,9 +134,9 @@ class LightTreeBuilder {
 
   /// Orders [first, last) into two halves and returns where the second begins.
   std::uint32_t divide(std::uint32_t first, std::uint32_t last, int depth) {
-    Vec3 low = centre(lights_[order_[first]]), high = low;
+    Vec3 low = centre(lights_[first].bounds), high = low;
     for (std::uint32_t i = first; i < last; ++i) {
-      const Vec3 c = centre(lights_[order_[i]]);
+      const Vec3 c = centre(lights_[i].bounds);
       for (int k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], c[k]);
         high[k] = std::max(high[k], c[k]);
@@ -144,9 +147,9 @@ class LightTreeBuilder {
       if (high[axis] > low[axis]) consider(first, last, low, high, axis, best);
     }
     if (best.axis >= 0) {
-      const auto begin = order_.begin();
-      const auto middle = std::partition(begin + first, begin + last, [&](std::uint32_t i) {
-        return bin_of(centre(lights_[i])[best.axis], low[best.axis], high[best.axis]) <= best.bin;
+      const auto begin = lights_.begin();
+      const auto middle = std::partition(begin + first, begin + last, [&](const Light& light) {
+        return bin_of(centre(light.bounds)[best.axis], low[best.axis], high[best.axis]) <= best.bin;
       });
       return static_cast<std::uint32_t>(middle - begin);
     }
@@ -162,7 +165,7 @@ class LightTreeBuilder {
     const bool with_cones = last - first <= most_with_cones;
     std::array<Bin, bins> filled{};
     for (std::uint32_t i = first; i < last; ++i) {
-      const LightBounds& light = lights_[order_[i]];
+      const LightBounds& light = lights_[i].bounds;
       filled[bin_of(centre(light)[axis], low[axis], high[axis])].add(light, 1, with_cones);
     }
     std::array<double, bins> after{};  // cost of all bins past each
@@ -229,8 +232,7 @@ class LightTreeBuilder {
   }
 
   LightTree& tree_;
-  const std::vector<LightBounds>& lights_;
-  std::vector<std::uint32_t> order_;
+  std::vector<Light> lights_;  // in the order of the halves; copies, since they are read over and over
   std::vector<Group> groups_;
 };
 

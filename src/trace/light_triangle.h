@@ -7,8 +7,8 @@
 namespace rnmbake {
 
 struct GlowTriangle {
-  Vec3 corner, edge1, edge2;  // corner 0; from it to corners 1 and 2
-  Vec3 normal;                // unit
+  Vec3 corner{0, 0, 0}, edge1{0, 0, 0}, edge2{0, 0, 0};  // corner 0; from it to corners 1 and 2
+  Vec3 normal{0, 0, 1};                                  // unit
   float area = 0;
 
   /// A place as barycentric weights of corners 1 and 2, and the density per solid angle that it was chosen

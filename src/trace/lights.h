@@ -15,9 +15,12 @@ namespace rnmbake {
 struct LightSample {
   Vec3 direction{0, 0, 1};  // unit, towards the light
   float distance = 0;       // to it; infinity for suns and the world
-  Vec3 radiance{0, 0, 0};   // arriving; for a delta light radiance x solid angle (its irradiance at normal incidence)
-  float pdf = 0;            // per solid angle, choice of the light included; of a delta light: of its choice. 0: nothing
-  bool chance_hits = false; // a ray in this direction could find it too: weigh the two ways against each other
+  Vec3 radiance{
+      0, 0, 0};  // arriving; for a delta light radiance x solid angle (its irradiance at normal incidence)
+  float pdf =
+      0;  // per solid angle, choice of the light included; of a delta light: of its choice. 0: nothing
+  bool chance_hits =
+      false;  // a ray in this direction could find it too: weigh the two ways against each other
 };
 
 /// `normal`: only light from its side counts; the zero vector: light from everywhere.

@@ -16,7 +16,7 @@ double corner_angle(double a, double b, double height) {
 }
 
 TEST(LightRectangleTest, SolidAngleIsItsClosedForm) {
-  for (const float height : {0.01F, 0.3F, 2.0F, 50.0F}) {
+  for (const float height : {0.01F, 0.3F, 2.0F, 9.0F}) {
     const SeenRectangle middle({0, 0, 0}, {0, 0, height}, {0.7F, 0, 0}, {0, 0.4F, 0});
     ASSERT_TRUE(middle.usable());
     const double expected = 4 * corner_angle(0.7, 0.4, height);

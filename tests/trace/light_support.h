@@ -65,7 +65,8 @@ inline Estimate irradiance(const Lights& lights, const Vec3& point, const Vec3& 
     const auto next = [&] { return static_cast<float>(random() >> 8) * 0x1p-24F; };
     double total = 0;
     for (int i = 0; i < grid * grid; ++i) {
-      const Vec3 u(next(), (static_cast<float>(i / grid) + next()) / static_cast<float>(grid),
+      const int line = i / grid;
+      const Vec3 u(next(), (static_cast<float>(line) + next()) / static_cast<float>(grid),
                    (static_cast<float>(i % grid) + next()) / static_cast<float>(grid));
       const LightSample sample = lights.sample(point, tell_normal ? normal : Vec3(0, 0, 0), u);
       const float cosine = sample.direction.dot(normal);

@@ -32,7 +32,7 @@ TEST(LightTriangleTest, PicturedTrianglesAreReadWhereTheyAreHit) {
   LitScene scene;
   Picture picture{64, 64, std::vector<Vec3>(64 * 64, Vec3(0, 0, 0))};
   for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 64; ++x) picture.texels[std::size_t(64 * y + x)] = Vec3(static_cast<float>(x) / 32);
+    for (int x = 0; x < 64; ++x) picture.texels[std::size_t(64) * y + x] = Vec3(static_cast<float>(x) / 32);
   }
   scene.exchange.pictures.push_back(picture);
   scene.triangle(scene.look({0, 0, 0}, 0), {-1, -1, 2}, {1, -1, 2}, {-1, 1, 2});

@@ -44,7 +44,8 @@ LitScene everything() {
     scene.lamp("POINT", 3 + i).to_world.translate(Vec3d(i - 6, 0.3 * i, 1 + 0.2 * i));
   const int look = scene.look({1, 1, 1});
   for (int i = 0; i < 40; ++i) {
-    const auto x = static_cast<float>(i % 8 - 4), y = static_cast<float>(i / 8 - 2);
+    const int line = i / 8;
+    const auto x = static_cast<float>(i % 8 - 4), y = static_cast<float>(line - 2);
     scene.triangle(look, {x, y, 3}, {x + 0.5F, y, 3}, {x, y + 0.5F, 3.5F});
   }
   return scene;
