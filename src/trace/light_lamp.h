@@ -9,8 +9,8 @@ namespace rnmbake {
 /// The cone of a spot: what it emits in a direction is multiplied by spot_share().
 struct SpotCone {
   bool used = false;
-  Vec3 x{1, 0, 0}, y{0, 1, 0},
-      z{0, 0, 1};          // rows that take a direction into the lamp's own frame, z along its axis
+  // Rows that take a direction into the lamp's own frame, z along its axis.
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   float cosine = -1;       // at the cone's edge
   float sharpness = 0;     // 1 / the cosines over which light fades in; 0: at once
   bool by_cosine = false;  // Blender before 3.5: also multiplied by the cosine off the axis

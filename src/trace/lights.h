@@ -15,12 +15,12 @@ namespace rnmbake {
 struct LightSample {
   Vec3 direction{0, 0, 1};  // unit, towards the light
   float distance = 0;       // to it; infinity for suns and the world
-  Vec3 radiance{
-      0, 0, 0};  // arriving; for a delta light radiance x solid angle (its irradiance at normal incidence)
-  float pdf =
-      0;  // per solid angle, choice of the light included; of a delta light: of its choice. 0: nothing
-  bool chance_hits =
-      false;  // a ray in this direction could find it too: weigh the two ways against each other
+  /// Arriving; for a delta light radiance x solid angle (its irradiance at normal incidence).
+  Vec3 radiance{0, 0, 0};
+  /// Per solid angle, choice of the light included; for a delta light: of its choice. 0: nothing arrives.
+  float pdf = 0;
+  /// A ray in this direction could find it too: weigh the two ways against each other.
+  bool chance_hits = false;
 };
 
 /// `normal`: only light from its side counts; the zero vector: light from everywhere.
@@ -28,7 +28,8 @@ struct LightSample {
 /// too, so they have a pdf for a given direction.
 class Lights {
  public:
-  /// `blender_version` ("3.4.1") says what the numbers of a light mean (docs/reference.md).
+  /// Scene and triangles must outlive it. `blender_version` ("3.4.1") says what the numbers of a light mean
+  /// (docs/reference.md).
   Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version);
   ~Lights();
   Lights(Lights&&) noexcept;
