@@ -31,16 +31,16 @@ inline BasisMetrics basis_of(const std::string& name, double relative_bias, doub
   return basis;
 }
 
-inline Report report_of(std::vector<std::pair<std::string, std::vector<BasisMetrics>>> objects) {
+inline Report report_of(const std::vector<std::pair<std::string, std::vector<BasisMetrics>>>& objects) {
   Report report;
   report.title = std::string("A against B");
   report.candidate_label = std::string("A");
   report.reference_label = std::string("B");
-  for (auto& [key, bases] : objects) {
+  for (const auto& [key, bases] : objects) {
     ObjectComparison object;
     object.key = key;
     object.width = object.height = 10;
-    object.bases = std::move(bases);
+    object.bases = bases;
     report.objects.push_back(std::move(object));
   }
   if (!report.objects.empty()) report.scene = report.objects.front().bases;

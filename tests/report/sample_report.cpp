@@ -32,14 +32,16 @@ Pictures make_pictures(int size, double offset, std::mt19937& random) {
       const double u = (x + 0.5) / size - 0.4, v = (y + 0.5) / size - 0.45, d = u * u + v * v;
       const double shadow = 1 / (1 + std::exp(-40 * (u + 0.6 * v + 0.25)));
       const double light = 0.08 + 0.9 * shadow * 0.05 / (0.05 + d);
-      const double noise = 0.02 * std::sqrt(light),
-                   draw[3] = {normal(random), normal(random), normal(random)};
+      const double noise = 0.02 * std::sqrt(light);
+      const double common[3] = {normal(random), normal(random), normal(random)};
       for (std::size_t c = 0; c < 3; ++c) {
+        // Half of the variance is common to the colours, as where the lamps' light is of one colour.
+        const auto draw = [&](int i) { return noise * (common[i] + normal(random)) / std::sqrt(2); };
         const double value = light * tint[c];
         const double biased = value * (1 + offset * (1 + std::sin(9 * u)) * (0.4 + d));
-        p.candidate.texel(x, y)[c] = static_cast<float>(biased + 2 * noise * draw[0]);
-        p.second.texel(x, y)[c] = static_cast<float>(biased + 2 * noise * draw[1]);
-        p.reference.texel(x, y)[c] = static_cast<float>(value + noise * draw[2]);
+        p.candidate.texel(x, y)[c] = static_cast<float>(biased + 2 * draw(0));
+        p.second.texel(x, y)[c] = static_cast<float>(biased + 2 * draw(1));
+        p.reference.texel(x, y)[c] = static_cast<float>(value + draw(2));
         p.error.texel(x, y)[c] = static_cast<float>(noise);
       }
       const bool covered = x > size / 32 && y > size / 32 && !(x > size * 3 / 4 && y > size * 3 / 4);
@@ -142,6 +144,7 @@ void add_everything_else(Report& report) {
 
 std::vector<std::string> numbered(int count) {
   std::vector<std::string> keys;
+  keys.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) keys.push_back("column." + std::to_string(1000 + i).substr(1));
   return keys;
 }
