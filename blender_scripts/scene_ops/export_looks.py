@@ -2,6 +2,8 @@
 import json
 from array import array
 
+import bpy
+
 from scene_ops.describe_nodes import active_output
 from scene_ops.export_notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV, OUTSIDE
 from scene_ops.keys import LABEL_PROPERTY
@@ -123,7 +125,6 @@ def write_picture(file, image, largest_side):
     entry = {"width": width, "height": height, "form": "f32", "offset": offset, "name": image.name,
              "srgb": not image.is_float and image.colorspace_settings.name == "sRGB"}
     if scaled:
-        import bpy
         bpy.data.images.remove(scaled)
     return entry
 

@@ -4,6 +4,7 @@ On materials: what of the original was beyond diffuse and emission, and its norm
 what has no surface. An export reads them from there; a bake does not look at them.
 """
 import json
+import math
 
 import bpy
 
@@ -116,5 +117,4 @@ def describe_camera(scene):
 
 
 def full_angle(width, depth):
-    from math import atan
-    return 2 * atan(width / 2 / depth)
+    return 2 * math.atan(width / 2 / depth)

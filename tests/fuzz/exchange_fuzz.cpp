@@ -5,6 +5,7 @@
 #include "scene/exchange.h"
 #include "trace/triangles.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <random>
@@ -103,6 +104,6 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   }
   const std::string file = fuzz::put_together(parts);
   if (file.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, file.data(), file.size());
+  std::copy(file.begin(), file.end(), data);
   return file.size();
 }
