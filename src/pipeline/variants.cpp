@@ -7,7 +7,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int traced_for_each_baked = 4;  // paths of the reference for each sample of the bake
+constexpr int traced_for_each_baked = 2;  // paths of the reference for each sample of the bake
 
 /// Whole values in one file, nothing mended: what a comparison wants.
 OutputSettings plain_output(const OutputSettings& output, const std::filesystem::path& dir) {

@@ -191,6 +191,21 @@ TEST(Resolve, TheSceneMustBeOneAndExist) {
   EXPECT_FALSE(is_project_path("a.toml/b.blend"));
 }
 
+TEST(Resolve, OnlyAReferenceTakesAnExportedScene) {
+  const ResolvedConfig config = resolved("", {}, {{"file", "missing.rnmscene"}});
+  EXPECT_NE(refusal([&] { require_scene(config); }).find("not a scene by its ending"), std::string::npos);
+  EXPECT_NE(refusal([&] { require_scene(config, Purpose::reference); }, ExitCode::io).find("no such scene"),
+            std::string::npos);
+}
+
+TEST(Resolve, PrintsTheSettingsOfACommand) {
+  const ResolvedConfig config = resolved("");
+  EXPECT_EQ(print_config(config).find("[reference]"), std::string::npos);
+  const std::string reference = print_config(config, Purpose::reference);
+  EXPECT_NE(reference.find("[reference]"), std::string::npos);
+  EXPECT_EQ(reference.find("recipe ="), std::string::npos);
+}
+
 TEST(Resolve, TheReferenceInTheDocsIsTheTable) {
   std::ifstream in(RNMBAKE_SOURCE_DIR "/docs/project-file.md");
   const std::string text{std::istreambuf_iterator<char>(in), {}};

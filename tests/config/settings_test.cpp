@@ -143,5 +143,24 @@ TEST(Settings, ValuesAreWrittenAsToml) {
   EXPECT_EQ(to_toml(std::vector<std::string>{"a", "b"}), R"(["a", "b"])");
 }
 
+TEST(Settings, EachCommandHasTheFlagsItCanUse) {
+  EXPECT_TRUE(setting("samples").serves(Purpose::bake));
+  EXPECT_TRUE(setting("samples").serves(Purpose::reference));
+  EXPECT_TRUE(setting("recipe").serves(Purpose::bake));
+  EXPECT_FALSE(setting("recipe").serves(Purpose::reference));
+  EXPECT_FALSE(setting("recipe").serves(Purpose::validate));
+  EXPECT_FALSE(setting("error").serves(Purpose::bake));
+  EXPECT_TRUE(setting("error").serves(Purpose::validate));
+  EXPECT_FALSE(setting("model").serves(Purpose::validate));
+}
+
+TEST(Settings, APercentSignMayFollowAPercentage) {
+  EXPECT_EQ(parse_value(setting("error"), "0.5%", "here"), SettingValue(0.5));
+  EXPECT_EQ(parse_value(setting("error"), "2", "here"), SettingValue(2.0));
+  EXPECT_NE(refusal("error", "%"), "accepted");
+  EXPECT_NE(refusal("error", "101%"), "accepted");
+  EXPECT_NE(refusal("clamp", "5%"), "accepted");
+}
+
 }  // namespace
 }  // namespace rnmbake

@@ -111,5 +111,23 @@ TEST(Metadata, WhatIsMissingOrContradictsIsRefusedAndNamed) {
   }
 }
 
+TEST(Metadata, AReferenceSaysHowItWasTraced) {
+  LightmapMetadata reference = example();
+  reference.recipe = "reference";
+  reference.bounces = -1;
+  reference.model = "flat-normal-map";
+  reference.faults = "tilt-clamp,bump-shadowing";
+  reference.error = 0.005F;
+  const LightmapMetadata got = read_metadata(image_with(reference), "a.exr");
+  EXPECT_EQ(got.bounces, -1);
+  EXPECT_EQ(got.model, "flat-normal-map");
+  EXPECT_EQ(got.faults, "tilt-clamp,bump-shadowing");
+  EXPECT_EQ(got.error, 0.005F);
+}
+
+TEST(Metadata, ABakeHasNoModel) {
+  EXPECT_FALSE(image_with(example()).attributes.contains("rnmbake:model"));
+}
+
 }  // namespace
 }  // namespace rnmbake
