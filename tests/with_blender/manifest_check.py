@@ -1,4 +1,4 @@
-"""Holds the manifests of real bakes against docs/manifest.schema.json, and two runs of one bake against each other.
+"""Holds the manifests of real bakes and references against docs/manifest.schema.json, and two runs of one bake against each other.
 
     RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/manifest_check.py
 """
@@ -46,11 +46,15 @@ class Manifest(unittest.TestCase):
     @classmethod
     def bake(cls, name, *flags):
         """Returns the manifest of a bake in which one object fails."""
+        return cls.lightmaps("bake", name, "--retries", "0", *flags)
+
+    @classmethod
+    def lightmaps(cls, command, name, *flags):
         env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
         env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1")
         done = subprocess.run(
-            [os.environ["RNMBAKE_BINARY"], "bake", str(cls.scene), "-o", str(cls.folder / name), "--exclude",
-             "left out", "--resolution", "16", "--samples", "2", "--retries", "0", *flags],
+            [os.environ["RNMBAKE_BINARY"], command, str(cls.scene), "-o", str(cls.folder / name), "--exclude",
+             "left out", "--resolution", "16", "--samples", "2", *flags],
             env=env, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
         if done.returncode != TASKS_FAILED:
             raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
@@ -101,9 +105,29 @@ class Manifest(unittest.TestCase):
         self.assertEqual(floor["green"], "y-down")
         self.assertEqual(manifest["scene_with_uvs"], "")
 
+    def test_of_a_reference_fits_and_repeats(self):
+        manifest = self.lightmaps("reference", "traced", "--threads", "1")
+        self.assert_valid(manifest)
+        again = self.lightmaps("reference", "traced again", "--threads", "2")
+        self.assertEqual({**manifest, "timings": 0}, {**again, "timings": 0})
+        for entry in manifest["objects"]:
+            for name in entry["files"]:
+                self.assertEqual((self.folder / "traced" / name).read_bytes(),
+                                 (self.folder / "traced again" / name).read_bytes(), name)
+        self.assertEqual([entry["key"] for entry in manifest["objects"]],
+                         [entry["key"] for entry in self.manifest["objects"]])
+        self.assertEqual([entry["files"] for entry in manifest["objects"]],
+                         [entry["files"] for entry in self.manifest["objects"]])
+        self.assert_strict(manifest, ((), ("objects", 0), ("timings",)))
+
     def test_schema_is_strict(self):
-        for path in ((), ("conventions",), ("objects", 0), ("objects", 0, "horizon"), ("bases", 0), ("timings",)):
-            spoilt = copy.deepcopy(self.manifest)
+        self.assert_strict(self.manifest, ((), ("conventions",), ("objects", 0), ("objects", 0, "horizon"), ("bases", 0),
+                                           ("timings",)))
+
+    def assert_strict(self, manifest, paths):
+        """Nothing may be missing or added there."""
+        for path in paths:
+            spoilt = copy.deepcopy(manifest)
             place = spoilt
             for step in path:
                 place = place[step]
