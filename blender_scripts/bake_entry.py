@@ -23,6 +23,7 @@ def main(task):
     scene = bpy.context.scene
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()
+        glow.leave_to_chance(set(task.request["left_to_chance"]))
         return bake_receivers(task, scene)
     return flat_normal_map.bake_targets(task, scene)
 

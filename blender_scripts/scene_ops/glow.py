@@ -1,17 +1,19 @@
-"""Keeps a large glowing surface from lighting its own receivers from behind.
+"""Keeps a glowing surface from lighting its own receivers from behind.
 
 A receiver floats just above its face. Cycles aims light samples at the glowing triangles of a scene, also at the
 one right below, which fills the whole lower hemisphere there, and a tilted corner normal takes part of it in.
 Paths that find the light by chance never look below the face. So where such a surface is too large to be missed,
 it is left to chance alone; that is the better way to sample it anyway. A small lamp stays a target of samples,
-or everything else would be noisy: only the bases of texels on the lamp itself are too bright then, by 5 to 12 % of
-what a lone square lamp emits.
+or everything else would be noisy. The receivers on lamps are therefore baked in a launch of their own, in which
+their lamps are left to chance. Objects of which less than half glows are not: the bases of texels on the glowing
+part are too bright then, by 5 to 12 % of what a lone square lamp emits.
 """
 from array import array
 
 import bpy
 
 from scene_ops.describe import describe_material
+from scene_ops.survey import material_name
 
 LARGE = 0.25  # of the area of everything that is rendered
 
@@ -21,6 +23,13 @@ def leave_large_emitters_to_chance():
     total = sum(areas.values())
     for material in glowing:
         if areas[material] > LARGE * total:
+            _no_light_sampling(material)
+
+
+def leave_to_chance(names):
+    """Materials by the names that the survey gave them."""
+    for material in bpy.data.materials:
+        if material_name(material) in names:
             _no_light_sampling(material)
 
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 namespace rnmbake {
@@ -27,6 +28,14 @@ std::string layer_names(const Mesh& mesh) {
 
 double uv_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return 0.5 * std::abs(double(b.x - a.x) * (c.y - a.y) - double(c.x - a.x) * (b.y - a.y));
+}
+
+double world_area(const Mesh& mesh, std::uint32_t triangle, const Mat44& to_world) {
+  std::array<Vec3d, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = Vec3d(mesh.positions[mesh.corner_vertex(3 * std::size_t(triangle) + k)]) * to_world;
+  }
+  return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
 }
 
 bool has_area(const Mesh& mesh, int layer) {
@@ -99,10 +108,7 @@ Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const
             const Mat44& to_world) {
   Areas sum;
   for (const std::uint32_t triangle : triangles) {
-    std::array<Vec3d, 3> p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[k] = Vec3d(mesh.positions[mesh.corner_vertex(3 * std::size_t(triangle) + k)]) * to_world;
-    sum.world += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
+    sum.world += world_area(mesh, triangle, to_world);
     const auto* loops = &mesh.triangle_loops[3 * std::size_t(triangle)];
     sum.uv += uv_area(uv[loops[0]], uv[loops[1]], uv[loops[2]]);
   }
@@ -117,6 +123,27 @@ int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
   const int lowest = rounded_up(settings.min_resolution);
   const int highest = std::max(lowest, settings.max_resolution / 4 * 4);
   return std::clamp(rounded_up(std::min(wanted, double(highest))), lowest, highest);
+}
+
+std::vector<std::string> glowing_materials(const Survey& survey, std::size_t object,
+                                           const std::vector<std::uint32_t>& triangles) {
+  const SceneObject& it = survey.objects[object];
+  const Mesh& mesh = survey.mesh_of(it);
+  double all = 0, glowing = 0;
+  std::set<std::string> names;
+  for (const std::uint32_t triangle : triangles) {
+    const double area = world_area(mesh, triangle, it.to_world);
+    all += area;
+    if (it.slots.empty()) continue;
+    const std::size_t slot =
+        std::min<std::size_t>(mesh.polygon_slot[mesh.triangle_polygon[triangle]], it.slots.size() - 1);
+    const auto material = survey.materials.find(it.slots[slot]);
+    if (material == survey.materials.end() || !material->second.emissive) continue;
+    glowing += area;
+    names.insert(it.slots[slot]);
+  }
+  if (!(glowing > all / 2)) return {};
+  return {names.begin(), names.end()};
 }
 
 std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,

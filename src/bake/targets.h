@@ -47,6 +47,10 @@ struct Part {
 [[nodiscard]] std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
                                            ObjectSettings::Split mode);
 
+/// The emitting materials of these triangles, if more than half of their area emits; else none.
+[[nodiscard]] std::vector<std::string> glowing_materials(const Survey& survey, std::size_t object,
+                                                         const std::vector<std::uint32_t>& triangles);
+
 using Uvs = std::shared_ptr<const std::vector<Vec2>>;  // one for each loop
 
 struct Target {
@@ -59,6 +63,7 @@ struct Target {
   bool unwrapped = false;
   bool flip_green = false;  // basis y points along falling v, for normal maps with Y down
   int width = 0, height = 0;
+  std::vector<std::string> glowing;  // materials that emit, where most of the surface does
 };
 
 /// A basis vector in the right-handed, Y-up frame of scene/tangents.h, whatever the target's green channel.

@@ -38,7 +38,7 @@ const char* name_of(BakingSettings::Dispatch dispatch) {
 }
 
 CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings& object) {
-  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
+  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device), false};
 }
 
 /// What the version's bakes average a texel over (docs/accuracy.md).
@@ -101,7 +101,8 @@ class BakeRun {
 
   void plan_target(std::size_t i) {
     const Target& target = list_.targets[i];
-    const CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
+    CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
+    cycles.glowing = by_receiver() && !target.glowing.empty();
     if (!by_receiver()) add_object_units(plan_, i, target, bases_, cycles);
     if (!by_receiver() && !settings_.output.frames) return;
 

@@ -122,6 +122,7 @@ class TargetMaker {
       target.tangent_layer = candidate.tangent ? layer_name(*candidate.tangent) : target.uv_layer;
       target.width = target.height =
           choose_resolution(candidate.settings, areas(mesh, part.triangles, *target.uv, object.to_world));
+      target.glowing = glowing_materials(survey_, candidate.object, part.triangles);
       target.part = std::move(part);
       list_.targets.push_back(std::move(target));
       list_.settings.push_back(candidate.settings);
