@@ -12,6 +12,7 @@
 #include "cli/help_format.h"
 #include "cli/inspect.h"
 #include "cli/reference.h"
+#include "cli/render.h"
 #include "cli/validate.h"
 #include "pipeline/workspace.h"
 
@@ -78,9 +79,17 @@ constexpr const char* about_validate =
     "over the two halves of a bake.";
 
 constexpr const char* about_compare =
-    "\n\nA and B are folders that `rnmbake bake` or `rnmbake reference` wrote, or two lightmaps. Errors are A\n"
+    "\n\nA and B are folders that `rnmbake bake` or `rnmbake reference` wrote, or two lightmaps. Errors are "
+    "A\n"
     "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
     "confidence interval. Exit code 7 says that a limit of --fail-above was exceeded.";
+
+constexpr const char* about_render =
+    "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
+    "the\n"
+    "material's normal map, plus what glows, with the world behind. --decode truth traces that light at "
+    "each\n"
+    "pixel instead, --with cycles asks Blender, and --compare puts all of them side by side on one page.";
 
 struct Command {
   const char* name;
@@ -96,6 +105,7 @@ const std::vector<Command>& commands() {
       {"reference", add_reference_command, about_reference},
       {"validate", add_validate_command, about_validate},
       {"compare", add_compare_command, about_compare},
+      {"render", add_render_command, about_render},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
   };

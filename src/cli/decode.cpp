@@ -93,7 +93,7 @@ FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
     return decode(std::move(lightmap), Vec3(n[0], n[1], n[2]), green_of(options), variant);
   }
   const LayeredImage picture = read_image(options.normal_map);
-  const NormalMap normals{normals_of(picture, options.normal_map.string()), green_of(options)};
+  const NormalPicture normals{normals_of(picture, options.normal_map.string()), green_of(options)};
   return decode(std::move(lightmap), normals, variant);
 }
 

@@ -30,47 +30,18 @@ const FloatImage& sized_like(const Lightmap& lightmap) {
   return lightmap.flat.empty() ? lightmap.rnm[0] : lightmap.flat;
 }
 
-/// Looks the maps up at one place of the lightmap and decodes there.
-class Decoder {
- public:
-  Decoder(const Lightmap& lightmap, DecodeVariant variant) : lightmap_(lightmap), variant_(variant) {}
-
-  [[nodiscard]] Vec3 at(const Vec2& uv, const Vec3& normal) const {
-    auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
-    if (!lightmap_.coverage.empty()) taps = covered_taps(taps, lightmap_.coverage);
-    if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
-    const std::array<Vec3, 3> maps{colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps),
-                                   colour(lightmap_.rnm[2], taps)};
-    return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, normal)
-                                             : rnm_decode_squared(maps, normal);
-  }
-
- private:
-  static Vec3 colour(const FloatImage& map, const std::array<Tap, 4>& taps) {
-    std::array<float, 3> rgb{};
-    sample(map, taps, rgb);
-    return {rgb[0], rgb[1], rgb[2]};
-  }
-
-  const Lightmap& lightmap_;
-  DecodeVariant variant_;
-};
-
-Vec3 turned(Vec3 normal, Green from, Green to) {
-  if (from != to) normal.y = -normal.y;
-  return normal;
+Vec3 colour(const FloatImage& map, const std::array<Tap, 4>& taps) {
+  std::array<float, 3> rgb{};
+  sample(map, taps, rgb);
+  return {rgb[0], rgb[1], rgb[2]};
 }
 
 template <typename NormalAt>
-FloatImage decode_all(Lightmap& lightmap, DecodeVariant variant, FloatImage result, NormalAt normal_at) {
-  require_layers(lightmap, variant);
-  if (variant == DecodeVariant::vrad && lightmap.metadata.normalize == Normalize::none)
-    normalize_to_flat({&lightmap.rnm[0], &lightmap.rnm[1], &lightmap.rnm[2]}, lightmap.flat);
-  const Decoder decoder(lightmap, variant);
+FloatImage decode_all(const LightmapDecoder& decoder, FloatImage result, Green green, NormalAt normal_at) {
   for (int y = 0; y < result.height(); ++y) {
     for (int x = 0; x < result.width(); ++x) {
-      const Vec3 colour = decoder.at(texel_uv(result, x, y), normal_at(x, y));
-      std::ranges::copy(std::array{colour.x, colour.y, colour.z}, result.texel(x, y).begin());
+      const Vec3 lit = decoder.at(texel_uv(result, x, y), normal_at(x, y), green);
+      std::ranges::copy(std::array{lit.x, lit.y, lit.z}, result.texel(x, y).begin());
     }
   }
   return result;
@@ -153,18 +124,46 @@ std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata, Dec
   return variant == DecodeVariant::single ? std::nullopt : rnm_obstacle(metadata, variant);
 }
 
-FloatImage decode(Lightmap lightmap, const NormalMap& normal_map, DecodeVariant variant) {
+LightmapDecoder::LightmapDecoder(Lightmap lightmap, DecodeVariant variant)
+    : lightmap_(std::move(lightmap)), variant_(variant) {
+  require_layers(lightmap_, variant);
+  if (variant == DecodeVariant::vrad && lightmap_.metadata.normalize == Normalize::none)
+    normalize_to_flat({&lightmap_.rnm[0], &lightmap_.rnm[1], &lightmap_.rnm[2]}, lightmap_.flat);
+}
+
+Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
+  auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
+  if (!lightmap_.coverage.empty()) taps = covered_taps(taps, lightmap_.coverage);
+  if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
+  const std::array<Vec3, 3> maps{colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps),
+                                 colour(lightmap_.rnm[2], taps)};
+  const Vec3 turned(normal.x, green == lightmap_.metadata.green ? normal.y : -normal.y, normal.z);
+  return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, turned)
+                                           : rnm_decode_squared(maps, turned);
+}
+
+int LightmapDecoder::width() const {
+  return sized_like(lightmap_).width();
+}
+
+int LightmapDecoder::height() const {
+  return sized_like(lightmap_).height();
+}
+
+FloatImage decode(Lightmap lightmap, const NormalPicture& normal_map, DecodeVariant variant) {
   const FloatImage& normals = normal_map.normals;
-  return decode_all(lightmap, variant, FloatImage(normals.width(), normals.height(), 3), [&](int x, int y) {
-    const auto n = normals.texel(x, y);
-    return turned({n[0], n[1], n[2]}, normal_map.green, lightmap.metadata.green);
-  });
+  const LightmapDecoder decoder(std::move(lightmap), variant);
+  return decode_all(decoder, FloatImage(normals.width(), normals.height(), 3), normal_map.green,
+                    [&](int x, int y) {
+                      const auto n = normals.texel(x, y);
+                      return Vec3(n[0], n[1], n[2]);
+                    });
 }
 
 FloatImage decode(Lightmap lightmap, const Vec3& normal, Green green, DecodeVariant variant) {
-  const FloatImage& size = sized_like(lightmap);
-  const Vec3 unit = turned(normal.normalized(), green, lightmap.metadata.green);
-  return decode_all(lightmap, variant, FloatImage(size.width(), size.height(), 3),
+  const LightmapDecoder decoder(std::move(lightmap), variant);
+  const Vec3 unit = normal.normalized();
+  return decode_all(decoder, FloatImage(decoder.width(), decoder.height(), 3), green,
                     [&](int, int) { return unit; });
 }
 

@@ -33,7 +33,7 @@ enum class DecodeVariant {
 [[nodiscard]] const char* name_of(DecodeVariant variant);
 
 /// Tangent-space normals: RGB of unit vectors, `green` says where y points.
-struct NormalMap {
+struct NormalPicture {
   FloatImage normals;
   Green green = Green::y_up;
 };
@@ -48,11 +48,27 @@ struct NormalMap {
 [[nodiscard]] std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata,
                                                          DecodeVariant variant);
 
-/// The lit picture, RGB in E/pi, of the normal map's size. Lightmap and normal map share one UV layout; the
-/// lightmap is looked up bilinearly, without its uncovered texels where a covered one is near. Normals are
-/// turned to the lightmap's green. Maps that the header calls normalized are never scaled again. Throws
-/// Error(unsupported), naming it, where a layer that the variant needs is missing.
-[[nodiscard]] FloatImage decode(Lightmap lightmap, const NormalMap& normal_map, DecodeVariant variant);
+/// Decodes at single places, as a shader does: maps bilinearly, without uncovered texels where a covered one
+/// is near, then the normal. Maps that the header calls normalized are never scaled again.
+class LightmapDecoder {
+ public:
+  /// Throws Error(unsupported), naming it, where a layer that the variant needs is missing.
+  LightmapDecoder(Lightmap lightmap, DecodeVariant variant);
+
+  /// E/pi. `normal`: unit, tangent space; turned to the lightmap's green.
+  [[nodiscard]] Vec3 at(const Vec2& uv, const Vec3& normal, Green green = Green::y_up) const;
+
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
+
+ private:
+  Lightmap lightmap_;
+  DecodeVariant variant_;
+};
+
+/// The lit picture, RGB in E/pi, of the normal map's size. Lightmap and normal map share one UV layout.
+/// Throws as LightmapDecoder.
+[[nodiscard]] FloatImage decode(Lightmap lightmap, const NormalPicture& normal_map, DecodeVariant variant);
 
 /// The same with one normal everywhere; of the lightmap's size.
 [[nodiscard]] FloatImage decode(Lightmap lightmap, const Vec3& normal, Green green, DecodeVariant variant);

@@ -109,7 +109,7 @@ TEST(Decode, GreenIsTurnedToTheLightmaps) {
 TEST(Decode, OutputHasTheNormalMapsSizeAndSharesTheUvs) {
   Lightmap map = coloured();
   for (int y = 0; y < 2; ++y) std::ranges::fill(map.rnm[0].texel(3, y), 9.0F);  // the right-hand column
-  NormalMap normals{filled(8, 8, Vec3(0, 0, 1)), Green::y_up};
+  NormalPicture normals{filled(8, 8, Vec3(0, 0, 1)), Green::y_up};
   const Vec3 b0 = rnm_basis()[0];
   std::ranges::copy(std::array{b0.x, b0.y, b0.z}, normals.normals.texel(7, 0).begin());
   const FloatImage result = decode(map, normals, DecodeVariant::squared);

@@ -1,0 +1,41 @@
+"""Cycles renders a camera's view, for `rnmbake render --with cycles` (docs/render.md). Run by Blender:
+
+    blender -b SCENE --python render_entry.py -- request.json
+
+Request: "scene" (see scene_ops/load.py), "cycles" (see scene_ops/cycles.py), "camera" (docs/rnmscene-format.md),
+"pixel_shape" (width of a pixel over its height), "width", "height", "normal_maps" (whether lambert materials get
+theirs back) and "seeds". Answers with one linear EXR for each seed.
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import bpy  # noqa: E402
+
+from core.task import run  # noqa: E402
+from scene_ops import cycles, render_camera, render_normals  # noqa: E402
+from scene_ops.load import open_scene  # noqa: E402
+
+
+def main(task):
+    warnings = open_scene(task)
+    scene, request = bpy.context.scene, task.request
+    if request["normal_maps"]:
+        render_normals.put_back()
+    render_camera.look_through(scene, request["camera"])
+    render_camera.size(scene, request["width"], request["height"], request["pixel_shape"])
+    return {"pictures": [render(task, scene, seed) for seed in request["seeds"]], "warnings": warnings}
+
+
+def render(task, scene, seed):
+    task.progress("render", f"seed {seed}")
+    cycles.apply_settings(scene, {**task.request["cycles"], "seed": seed})
+    render_camera.settle(scene)
+    name = f"view{seed}.exr"
+    scene.render.filepath = task.path(name)
+    bpy.ops.render.render(write_still=True)
+    return name
+
+
+run(main)

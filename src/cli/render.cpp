@@ -1,0 +1,187 @@
+#include "cli/render.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "cli/command_line.h"
+#include "cli/render_flags.h"
+#include "image/display_png.h"
+#include "image/layered_exr.h"
+#include "pipeline/deliver_lightmap.h"
+#include "pipeline/export_scene.h"
+#include "pipeline/late_blender.h"
+#include "pipeline/reference_plan.h"
+#include "pipeline/render_compare.h"
+#include "pipeline/render_cycles.h"
+#include "process/stop.h"
+#include "report/write.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int traced_samples = 256, looked_up_samples = 16;
+
+/// The scene, ready to be looked at.
+class Stage {
+ public:
+  Stage(const ResolvedConfig& config, const RenderFlags& flags)
+      : config_(config),
+        flags_(flags),
+        blender_(config.globals),
+        workspace_(config_, blender_),
+        exported_(opened()),
+        plan_(plan_reference(config_, exported_.exchange.survey.blender_version)),
+        scene_(exported_.exchange, plan_.blender_version) {
+    if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps, exported_.exchange);
+    if (lightmaps_ && !lightmaps_->bare().empty())
+      log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
+  }
+
+  void write_picture() {
+    const RenderOptions options = render_options(flags_.with == "cycles");
+    if (flags_.with == "cycles") return write({cycles(options), {}, {}});
+    write(render_view(scene_, lightmaps_ ? &*lightmaps_ : nullptr, *lighting_of(flags_.decode), options));
+  }
+
+  [[nodiscard]] Report compare() {
+    ViewCompareOptions options;
+    options.render = render_options(true);
+    options.own_materials = flags_.materials == "full";
+    Report report;
+    report.views.push_back(compare_view(workspace_, exported_, scene_, *lightmaps_, options));
+    report.finding = finding_of(report.views.front());
+    const ViewOptions& view = options.render.view;
+    report.settings = {{"size", fmt::format("{} x {}", view.width, view.height)},
+                       {"samples", fmt::format("{} of what is traced", view.samples)},
+                       {"lightmaps", flags_.lightmaps.string()},
+                       {"Cycles' materials", flags_.materials}};
+    report.versions = {{"Blender", plan_.blender_version}};
+    return report;
+  }
+
+ private:
+  /// A camera is looked for before anything else is done with the scene.
+  ExportedScene opened() {
+    if (!is_exchange(config_.globals.scene.file)) (void)blender_.info();
+    ExportedScene exported = export_scene(workspace_);
+    (void)camera_of(exported.exchange);
+    return exported;
+  }
+
+  [[nodiscard]] RenderOptions render_options(bool cycles) const {
+    RenderOptions options = rnmbake::render_options(camera_of(exported_.exchange));
+    if (const auto size = flags_.size()) std::tie(options.view.width, options.view.height) = *size;
+    const bool traced = cycles || flags_.decode == "truth";
+    options.view.samples = flags_.samples > 0 ? flags_.samples : traced ? traced_samples : looked_up_samples;
+    options.view.seed = static_cast<std::uint64_t>(config_.globals.object.seed);
+    options.view.threads = plan_.threads;
+    options.bounces = plan_.bounces;
+    return options;
+  }
+
+  [[nodiscard]] FloatImage cycles(const RenderOptions& options) {
+    const BakeSettings& settings = config_.globals;
+    auto pictures = render_cycles(workspace_, exported_,
+                                  {options.view.width,
+                                   options.view.height,
+                                   options.view.samples,
+                                   settings.bake.bounces,
+                                   {settings.object.seed},
+                                   flags_.materials == "full"});
+    return std::move(pictures.front());
+  }
+
+  void write(View&& view) const {
+    if (is_png(flags_.output)) return write_display_png(flags_.output, view.beauty, flags_.exposure);
+    LayeredImage image;
+    image.layers.push_back({"", {"R", "G", "B"}, std::move(view.beauty)});
+    if (!view.albedo.empty()) image.layers.push_back({"albedo", {"R", "G", "B"}, std::move(view.albedo)});
+    if (!view.coverage.empty()) image.layers.push_back({"coverage", {""}, std::move(view.coverage)});
+    image.attributes["rnmbake:rendered"] = flags_.with == "cycles" ? "cycles" : flags_.decode;
+    write_exr(flags_.output, image, Depth::full);
+  }
+
+  const ResolvedConfig& config_;
+  const RenderFlags& flags_;
+  LateBlender blender_;
+  Workspace workspace_;
+  ExportedScene exported_;
+  ReferencePlan plan_;
+  TraceScene scene_;
+  std::optional<SceneLightmaps> lightmaps_;
+};
+
+/// "RNM, squared" -> "rnm-squared.exr".
+std::string file_name(const std::string& label) {
+  std::string name;
+  for (const char c : label) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  return name + ".exr";
+}
+
+void write_comparison(Report report, const ResolvedConfig& config, const RenderFlags& flags) {
+  report.title = config.globals.scene.file.filename().string() + ": one view, several ways to light it";
+  report.command = command_line("render", config) + flags.as_text();
+  for (const ViewPicture& picture : report.views.front().pictures) {
+    LayeredImage image;
+    image.layers.push_back({"", {"R", "G", "B"}, picture.picture});
+    write_exr(flags.output / file_name(picture.label), image, Depth::full);
+  }
+  write_report(report, flags.output);
+  std::cout << report.finding << '\n';
+  log::info("report: {}", (flags.output / "report.html").string());
+}
+
+int render(ResolvedConfig config, const RenderFlags& flags) {
+  if (const auto saved = scene_with_lightmap_uvs(flags.lightmaps);
+      saved && !is_exchange(config.globals.scene.file)) {
+    log::info("opening {}, which has the UVs that were made for these lightmaps", saved->string());
+    config.globals.scene.file = *saved;
+  }
+  if (flags.compare) {
+    OutputSettings output;
+    output.dir = flags.output;
+    prepare_output(output);
+  }
+  Stage stage(config, flags);
+  if (flags.compare) {
+    write_comparison(stage.compare(), config, flags);
+  } else {
+    stage.write_picture();
+  }
+  return static_cast<int>(ExitCode::ok);
+}
+
+}  // namespace
+
+std::function<int()> add_render_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("render", "Show a scene from its camera, lit by lightmaps, traced, or by Cycles");
+  auto flags = std::make_shared<RenderFlags>(*command);
+  return [flags] {
+    flags->check();
+    StopRequest::install();
+    return render(flags->resolve(), *flags);
+  };
+}
+
+}  // namespace rnmbake

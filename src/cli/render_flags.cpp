@@ -1,0 +1,170 @@
+#include "cli/render_flags.h"
+
+#include "base/error.h"
+#include "cli/command_line.h"
+#include "config/document.h"
+#include "config/value.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
+
+namespace rnmbake {
+namespace {
+
+constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one that is a picture still
+
+/// Settings that decide what is seen.
+constexpr std::array view_settings{"bounces", "seed",    "device",  "allow_scripts", "blender_version",
+                                   "blender", "scripts", "threads", "timeout",       "keep_temporary"};
+
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+/// The whole text as a number of pixels.
+std::optional<int> pixels(const std::string& text) {
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, number);
+  const bool good = parsed.ec == std::errc() && parsed.ptr == end && number >= smallest && number <= largest;
+  return good ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+bool is_png(const std::filesystem::path& file) {
+  return ending_of(file) == ".png";
+}
+
+RenderFlags::RenderFlags(CLI::App& command) {
+  scene_ = command.add_option("SCENE", "scene (.blend, .glb, .gltf, .rnmscene) or project file (.toml)");
+  add_pictures(command);
+  add_settings(command);
+}
+
+void RenderFlags::add_pictures(CLI::App& command) {
+  command
+      .add_option("--lightmaps", lightmaps,
+                  "output folder of rnmbake bake or rnmbake reference, or one lightmap (.exr)")
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--decode", decode,
+          "how surfaces are lit: by the flat lightmap (single), by all maps and the material's normal map "
+          "(squared, linear, vrad: see rnmbake decode), traced (truth), or not (none: the albedo alone) "
+          "[squared]")
+      ->check(CLI::IsMember({"single", "squared", "linear", "vrad", "truth", "none"}).description(""))
+      ->type_name("single|squared|linear|vrad|truth|none");
+  command.add_option("--with", with, "let Cycles render the view instead")
+      ->check(CLI::IsMember({"cycles"}).description(""))
+      ->type_name("cycles");
+  command
+      .add_option("--materials", materials,
+                  "what Cycles shows: lambert, as the tracer (with normal maps), or the scene's own (full) "
+                  "[lambert]")
+      ->check(CLI::IsMember({"lambert", "full"}).description(""))
+      ->type_name("lambert|full");
+  command.add_flag("--compare", compare,
+                   "all of these, and a report on how far each is from the truth: -o names its folder");
+  command
+      .add_option("-o,--output", output, "picture to write: .exr (linear) or .png; with --compare a folder")
+      ->type_name("PATH");
+  command.add_option("--resolution", resolution, "size of the picture [the camera's, at most 960 pixels]")
+      ->type_name("WxH");
+  command
+      .add_option("--samples", samples,
+                  "camera rays for each pixel [16; 256 where light is traced, and for Cycles]")
+      ->check(CLI::Range(1, 65536).description(""))
+      ->type_name("N");
+  command.add_option("--exposure", exposure, "of a .png: multiply by 2^STOPS [0]")->type_name("STOPS");
+}
+
+void RenderFlags::add_settings(CLI::App& command) {
+  for (const char* key : view_settings) {
+    const Setting* setting = find_setting(key);
+    const bool is_switch = setting->kind == SettingKind::boolean;
+    const std::string help = help_text(*setting);
+    CLI::Option* option = is_switch ? command.add_flag(setting->flag_names(), help)
+                                    : command.add_option(setting->flag_names(), help);
+    if (!is_switch) option->type_name("VALUE");
+    option->group("Settings")->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    settings_.emplace_back(setting, option);
+  }
+}
+
+void RenderFlags::check() {
+  if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o FILE.exr or FILE.png");
+  if (!resolution.empty() && !size()) {
+    fail(ExitCode::usage, "--resolution {} is not a size; give one such as 640x360, {} to {} pixels a side",
+         resolution, smallest, largest);
+  }
+  const bool has_ending = is_png(output) || ending_of(output) == ".exr";
+  if (compare && has_ending)
+    fail(ExitCode::usage, "--compare writes a folder, and {} is a picture; name a folder", output.string());
+  if (!compare && !has_ending)
+    fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", output.string());
+  const int ways = int(!decode.empty()) + int(!with.empty()) + int(compare);
+  if (ways > 1) fail(ExitCode::usage, "--decode, --with and --compare exclude each other; give one of them");
+  if (ways == 0) decode = "squared";
+  const bool looks_up = compare || (!decode.empty() && decode != "truth" && decode != "none");
+  if (looks_up && lightmaps.empty()) {
+    fail(ExitCode::usage,
+         "{} needs --lightmaps DIR; without lightmaps there are --decode truth and --with cycles",
+         compare ? "--compare" : "--decode " + decode);
+  }
+}
+
+ResolvedConfig RenderFlags::resolve() const {
+  std::vector<Given> flags;
+  for (const auto& [setting, option] : settings_) {
+    if (option->count() == 0) continue;
+    const std::string where = "flag " + setting->flag();
+    flags.push_back(
+        {setting, parse_value(*setting, option->results().back(), where), SettingSource::flag, where});
+  }
+  ProjectFile project;
+  if (scene_->count() > 0) {
+    const std::string scene = scene_->results().back();
+    if (is_project_path(scene)) {
+      project = read_project(scene);
+    } else {
+      flags.push_back({find_setting("file"), scene, SettingSource::flag, "argument SCENE"});
+    }
+  }
+  ResolvedConfig config = rnmbake::resolve(project, read_environment(process_environment()), flags);
+  require_scene(config, Purpose::reference);
+  return config;
+}
+
+std::optional<std::pair<int, int>> RenderFlags::size() const {
+  const std::size_t times = resolution.find_first_of("xX");
+  if (times == std::string::npos) return std::nullopt;
+  const auto width = pixels(resolution.substr(0, times)), height = pixels(resolution.substr(times + 1));
+  return width && height ? std::optional(std::pair(*width, *height)) : std::nullopt;
+}
+
+std::string RenderFlags::as_text() const {
+  std::string text;
+  const auto add = [&](const char* flag, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" {} {}", flag, shell_word(value));
+  };
+  add("--lightmaps", lightmaps.string());
+  add("--decode", decode);
+  add("--with", with);
+  if (compare) text += " --compare";
+  if (materials != "lambert") add("--materials", materials);
+  add("--resolution", resolution);
+  if (samples > 0) add("--samples", fmt::format("{}", samples));
+  add("-o", output.string());
+  return text;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,61 @@
+// trace/view.h - what a camera sees: rays through its pixels, and what somebody makes of the places they
+// meet.
+#pragma once
+
+#include "base/math.h"
+#include "image/float_image.h"
+#include "scene/exchange.h"
+#include "trace/sampler.h"
+#include "trace/scene.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace rnmbake {
+
+/// Keeps the camera's horizontal field of view and the shape of its pixels, whatever the picture's size.
+class CameraRays {
+ public:
+  CameraRays(const Camera& camera, int width, int height);
+
+  /// In pixels from the top left corner: (0.5, 0.5) is the first pixel's centre.
+  [[nodiscard]] Ray through(double x, double y) const;
+
+ private:
+  Mat44 to_world_;
+  bool orthographic_;
+  double pixels_x_, pixels_y_;  // of the picture
+  double width_, height_;       // of the picture in the camera's space; of a perspective one at distance 1
+  double shift_x_, shift_y_;    // in the same units
+};
+
+/// Width of a pixel over its height.
+[[nodiscard]] double pixel_shape(const Camera& camera);
+
+struct ViewOptions {
+  int width = 960, height = 540;
+  int samples = 16;  // camera rays for each pixel, at most 65536
+  std::uint64_t seed = 0;
+  int threads = 0;  // 0: all cores
+};
+
+/// Of the light that a place sends back towards the camera: radiance, its emission left out.
+using ReflectedLight = std::function<Vec3(const Vertex& vertex, Sampler& sampler)>;
+
+/// Averages over each pixel's square (box filter).
+struct View {
+  FloatImage beauty;    // RGB, radiance: emitted, reflected, or the world's where nothing is met
+  FloatImage albedo;    // RGB, 0 where nothing is met
+  FloatImage coverage;  // one channel: share of the camera rays that met something
+};
+
+/// `reflected` is called from several threads. Objects that cameras do not see are looked through. The same
+/// for a seed at any number of threads; two calls with one seed have the same camera rays. `progress`
+/// receives the share done, one call at a time; `stop` is polled, and when it says true the view is
+/// unfinished.
+[[nodiscard]] View trace_view(const TraceScene& scene, const Camera& camera, const ViewOptions& options,
+                              const ReflectedLight& reflected,
+                              const std::function<void(double)>& progress = {},
+                              const std::function<bool()>& stop = {});
+
+}  // namespace rnmbake
