@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "cli/command_line.h"
 #include "pipeline/compare.h"
 #include "report/thresholds.h"
 #include "report/write.h"
@@ -27,22 +28,10 @@ struct Options {
   bool json = false;
 };
 
-/// A word as a shell takes it back.
-std::string quoted(const std::string& word) {
-  const bool harmless = !word.empty() && word.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyz"
-                                             "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789_-./=,%:+@") == std::string::npos;
-  if (harmless) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
 std::string command_of(const Options& options) {
   std::string line = "rnmbake compare";
   const auto add = [&](const char* flag, const std::string& value) {
-    if (!value.empty()) line += fmt::format(" {}{}", flag, quoted(value));
+    if (!value.empty()) line += fmt::format(" {}{}", flag, shell_word(value));
   };
   const CompareOptions& compare = options.compare;
   add("", compare.candidate.path.string());

@@ -13,9 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include <spdlog/fmt/ranges.h>
@@ -27,7 +27,9 @@ namespace {
 struct Kind {
   bool flip_green = false;
   int samples = 0, seed = 0;
-  auto operator<=>(const Kind&) const = default;
+  bool operator<(const Kind& other) const {
+    return std::tie(flip_green, samples, seed) < std::tie(other.flip_green, other.samples, other.seed);
+  }
 };
 
 /// Turns the y axis round: harmonics with m < 0 are odd in y.

@@ -158,8 +158,10 @@ std::vector<Splitting> splittings(const ExportedScene& exported) {
                    })});
   }
   std::ranges::stable_sort(all, {}, target_count);
-  const auto repeated = std::ranges::unique(all, {}, target_count);
-  all.erase(repeated.begin(), repeated.end());
+  const auto as_many = [](const Splitting& a, const Splitting& b) {
+    return target_count(a) == target_count(b);
+  };
+  all.erase(std::unique(all.begin(), all.end(), as_many), all.end());
   std::erase_if(all, [](const Splitting& one) {
     const bool too_many = one.name != "whole" && one.list.targets.size() > most_targets;
     if (too_many)

@@ -81,6 +81,7 @@ std::string receiver_finding(const Report& receiver) {
   }
   if (receiver.objects.empty()) return "receiver: nothing was compared";
   std::vector<Statistic> biases;
+  biases.reserve(receiver.scene.size());
   for (const BasisMetrics& basis : receiver.scene) biases.push_back(basis.metrics.relative_bias);
   const std::string whole = percent(mean(biases), true);
   if (worst == nullptr) return fmt::format("receiver: no bias beyond the noise ({} over the scene)", whole);
@@ -92,6 +93,7 @@ std::string recipe_finding(const Decomposition& scene) {
   const auto bases = directional(scene.bases, [](const BasisDecomposition& basis) { return basis.basis; });
   if (bases.empty()) return "flat-normal-map: nothing was compared";
   std::vector<Statistic> totals;
+  totals.reserve(bases.size());
   for (const BasisDecomposition* basis : bases) totals.push_back(basis->total.relative_bias);
   Causes causes = causes_of(bases);
   Statistic residual;

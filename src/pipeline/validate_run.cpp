@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <utility>
 
 namespace rnmbake {
 namespace {
@@ -63,7 +61,7 @@ class ValidateRun {
       study.points.push_back(study_point(base_, splitting, plan_, 64));
     }
     steps.begin("comparing", 0.1);
-    return compare(std::move(study));
+    return compare(study);
   }
 
  private:
@@ -172,7 +170,7 @@ class ValidateRun {
     return input;
   }
 
-  [[nodiscard]] Validation compare(SplitStudy study) const {
+  [[nodiscard]] Validation compare(const SplitStudy& study) const {
     Validation result{against_truth(Recipe::receiver, "receiver"),
                       against_truth(Recipe::flat_normal_map, "flat-normal-map"), complete_};
     const std::vector<Decomposition> parts = decompose(decompose_input());
