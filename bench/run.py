@@ -13,9 +13,10 @@ import memory
 import overhead
 import preparation
 import startup
+import tracing
 
 BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "memory": memory, "preparation": preparation,
-              "startup": startup}
+              "startup": startup, "tracing": tracing}
 RESULTS = Path(__file__).resolve().parent / "results"
 DOCUMENT = measure.ROOT / "docs/performance.md"
 INTRODUCTION = """# Performance
@@ -35,6 +36,7 @@ def arguments():
     parser.add_argument("--full", action="store_true", help="dispatch: bake every object instead of extrapolating")
     parser.add_argument("--objects", type=int, nargs="+", help="dispatch: sizes of the hall (10 40 160)")
     parser.add_argument("--samples", type=int, nargs="+", help="overhead: samples (256)")
+    parser.add_argument("--scenes", nargs="+", help="tracing: only these")
     parser.add_argument("--patience", type=float, default=0, metavar="S",
                         help="wait so long for a quiet machine before each benchmark")
     options = parser.parse_args()

@@ -10,6 +10,7 @@
 #include "scene/tangents.h"
 #include "trace/gather.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <iostream>
@@ -77,9 +78,17 @@ json measure(const TraceScene& scene, const std::vector<GatherTarget>& targets,
              const GatherOptions& options) {
   std::vector<Totals> totals(options.directions.size());
   std::int64_t rays = 0, paths = 0;
+  std::vector<double> objects;  // relative variance of each, mean over the directions
   const double start = steady_clock().now(), cpu_start = cpu_seconds();
   gather(scene, targets, options, [&](std::size_t, const Gathered& gathered) {
-    for (std::size_t k = 0; k < totals.size(); ++k) totals[k].add(gathered, k);
+    double of_object = 0;
+    for (std::size_t k = 0; k < totals.size(); ++k) {
+      totals[k].add(gathered, k);
+      Totals alone;
+      alone.add(gathered, k);
+      of_object += alone.relative_variance() / double(totals.size());
+    }
+    objects.push_back(of_object);
     rays += gathered.rays;
     paths += gathered.paths;
   });
@@ -95,6 +104,8 @@ json measure(const TraceScene& scene, const std::vector<GatherTarget>& targets,
     sum += totals[k].relative_variance() / double(totals.size());
   }
   result["cost"] = sum * result["cpu_seconds"].get<double>();
+  std::nth_element(objects.begin(), objects.begin() + objects.size() / 2, objects.end());
+  result["median_cost"] = objects[objects.size() / 2] * result["cpu_seconds"].get<double>();
   return result;
 }
 
