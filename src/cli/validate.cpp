@@ -31,6 +31,12 @@ struct ValidateFlags {
         ->check(CLI::IsMember({"split"}).description(""))
         ->type_name("STUDY");
     command
+        .add_option("--view", view,
+                    "longer side of the camera's view in the report, in pixels: traced, by Cycles, and lit "
+                    "by the lightmaps in each way to decode them; 0: none [480]")
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N");
+    command
         .add_option(
             "--fail-above", fail_above,
             "limits for each object and basis of the receiver's bake, such as rmse=2%,bias=0.5%: exit "
@@ -39,11 +45,13 @@ struct ValidateFlags {
   }
   SettingsFlags settings;
   std::string study, fail_above;
+  int view = ValidateOptions{}.view;
 };
 
 std::string command_of(const ResolvedConfig& config, const ValidateFlags& flags) {
   std::string line = command_line("validate", config);
   if (!flags.study.empty()) line += " --study " + shell_word(flags.study);
+  if (flags.view != ValidateOptions{}.view) line += fmt::format(" --view {}", flags.view);
   if (!flags.fail_above.empty()) line += " --fail-above " + shell_word(flags.fail_above);
   return line;
 }
@@ -71,7 +79,7 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   (void)blender.info();  // a missing Blender is said before anything is written
   Workspace workspace(config, blender);
   prepare_output(config.globals.output);
-  Validation found = validate(workspace, bases, {flags.study == "split"});
+  Validation found = validate(workspace, bases, {flags.study == "split", flags.view});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
   std::cout << found.receiver.finding << '\n';
   log::info("report: {}", (config.globals.output.dir / "report.html").string());

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "pipeline/compare.h"
 #include "pipeline/decompose.h"
+#include "pipeline/render_compare.h"
 #include "pipeline/split_study.h"
 #include "pipeline/steps.h"
 #include "pipeline/validate_finding.h"
@@ -21,6 +22,7 @@ using Materials = SceneSettings::Materials;
 
 // Time of a step in units of one half of a receiver bake, about.
 constexpr double receiver_weight = 1, recipe_weight = 1.5, trace_weight = 0.7;
+constexpr double view_weight = 3;
 constexpr double study_weight = 2 * recipe_weight + trace_weight;
 
 /// A fault that is added to those before it.
@@ -38,7 +40,9 @@ constexpr std::array<Fault, 4> all_faults{
 class ValidateRun {
  public:
   ValidateRun(Workspace& workspace, const std::vector<BasisDirection>& bases, const ValidateOptions& options)
-      : dir_(workspace.settings().output.dir),
+      : workspace_(workspace),
+        options_(options),
+        dir_(workspace.settings().output.dir),
         exported_(export_scene(workspace)),
         plan_(plan_reference(workspace.config(), exported_.exchange.survey.blender_version)),
         scene_(exported_.exchange, plan_.blender_version),
@@ -60,11 +64,35 @@ class ValidateRun {
                   study_weight);
       study.points.push_back(study_point(base_, splitting, plan_, 64));
     }
+    std::vector<ViewComparison> views;
+    if (shows_view()) {
+      steps.begin("the camera's view", view_weight);
+      views.push_back(view());
+    }
     steps.begin("comparing", 0.1);
-    return compare(study);
+    Validation result = compare(study);
+    for (const ViewComparison& one : views) {
+      result.receiver.notes.push_back("Seen by the camera, against the truth: " + finding_of(one));
+      result.receiver.views.push_back(one);
+    }
+    return result;
   }
 
  private:
+  [[nodiscard]] bool shows_view() const { return options_.view > 0 && exported_.exchange.camera; }
+
+  /// The receiver's lightmaps, put back into the scene.
+  [[nodiscard]] ViewComparison view() const {
+    const SceneLightmaps lightmaps(halves(Recipe::receiver, Materials::lambert).first, exported_.exchange);
+    ViewCompareOptions options;
+    options.render = render_options(*exported_.exchange.camera, options_.view);
+    options.render.view.samples = workspace_.settings().object.samples;
+    options.render.view.seed = static_cast<std::uint64_t>(workspace_.settings().object.seed);
+    options.render.view.threads = plan_.threads;
+    options.render.bounces = plan_.bounces;
+    return compare_view(workspace_, exported_, scene_, lightmaps, options);
+  }
+
   /// Objects whose materials the lambert scene only stands in for.
   [[nodiscard]] bool has_own_materials() const {
     return std::ranges::any_of(exported_.exchange.outside, [](const OutsideModel& outside) {
@@ -107,10 +135,11 @@ class ValidateRun {
   }
 
   [[nodiscard]] std::size_t step_count() const {
-    return 2 * bakes().size() + 1 + emulations().size() + study_.size() + 1;
+    return 2 * bakes().size() + 1 + emulations().size() + study_.size() + (shows_view() ? 1 : 0) + 1;
   }
   [[nodiscard]] double whole_weight() const {
     double sum = 0.1 + trace_weight * double(1 + emulations().size()) + study_weight * double(study_.size());
+    if (shows_view()) sum += view_weight;
     for (const BakeVariant& variant : bakes()) sum += 2 * weight_of(variant);
     return sum;
   }
@@ -201,6 +230,8 @@ class ValidateRun {
     }
   }
 
+  Workspace& workspace_;
+  ValidateOptions options_;
   std::filesystem::path dir_;
   ExportedScene exported_;
   ReferencePlan plan_;

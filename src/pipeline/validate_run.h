@@ -12,6 +12,7 @@ namespace rnmbake {
 
 struct ValidateOptions {
   bool split_study = false;
+  int view = 480;  // pixels along the longer side of the camera's view in the report; 0: none
 };
 
 /// Two reports on the same truth. The receiver's has the decomposition of the recipe's error and the study.

@@ -35,7 +35,7 @@ class Validate : public testing::Test {
         run({blender, "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", "--python",
              RNMBAKE_SOURCE_DIR "/scenes/make.py", "--", "cornell", scene_.string()});
     ASSERT_EQ(built.exit_code, 0) << built.output;
-    validated_ = validate("report", {"--study", "split", "--objects", "floor,tall,ball"});
+    validated_ = validate("report", {"--study", "split", "--objects", "floor,tall,ball", "--view", "64"});
     ASSERT_EQ(validated_.exit_code, 0) << validated_.output;
     report_ = json::parse(read_text(folder_->path() / "report" / "report.json"));
   }
@@ -132,6 +132,15 @@ TEST_F(Validate, TheStudyCountsItsTargets) {
   for (const json& point : points) EXPECT_GT(point.at("seconds").get<double>(), 0);
 }
 
+TEST_F(Validate, ShowsTheCamerasView) {
+  ASSERT_EQ(report_.at("views").size(), 1U);
+  std::set<std::string> labels;
+  for (const json& picture : report_.at("views").at(0).at("pictures"))
+    labels.insert(picture.at("label").get<std::string>());
+  for (const char* label : {"truth", "Cycles", "single lightmap", "RNM, squared"})
+    EXPECT_TRUE(labels.contains(label)) << label;
+}
+
 TEST_F(Validate, KeepsEveryStepAndSaysHowToRepeatIt) {
   const fs::path dir = folder_->path() / "report";
   for (const char* name : {"receiver/1", "receiver/2", "flat-normal-map/1", "flat-normal-map/2", "reference",
@@ -147,8 +156,8 @@ TEST_F(Validate, KeepsEveryStepAndSaysHowToRepeatIt) {
 }
 
 TEST_F(Validate, AThresholdThatIsExceededIsExitCode7) {
-  const Ended strict =
-      validate("strict", {"--objects", "floor", "--bases", "flat", "--fail-above", "max=0.0001%"});
+  const Ended strict = validate(
+      "strict", {"--objects", "floor", "--bases", "flat", "--view", "0", "--fail-above", "max=0.0001%"});
   EXPECT_EQ(strict.exit_code, 7) << strict.output;
   const json report = json::parse(read_text(folder_->path() / "strict" / "report.json"));
   EXPECT_EQ(report.at("thresholds").at("exceeded").at(0).at("object"), "floor");
