@@ -31,8 +31,6 @@
 namespace rnmbake {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int traced_samples = 256, looked_up_samples = 16;
 
 /// The scene, ready to be looked at.

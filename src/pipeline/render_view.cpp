@@ -28,7 +28,9 @@ class Shader {
         surfaces_(scene,
                   lightmaps == nullptr ? std::map<std::size_t, std::string>{} : lightmaps->tangent_layers()) {
     path_.bounces = bounces < 0 ? -1 : bounces + 1;
-    if (lighting.kind == Lighting::Kind::decoded) decoders_ = lightmaps->decoders(lighting.variant);
+    if (lighting.kind != Lighting::Kind::decoded) return;
+    if (lightmaps == nullptr) fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
+    decoders_ = lightmaps->decoders(lighting.variant);
   }
 
   [[nodiscard]] Vec3 reflected(const Vertex& vertex, Sampler& sampler) const {

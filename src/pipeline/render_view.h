@@ -31,8 +31,7 @@ struct RenderOptions {
   int bounces = -1;  // surfaces that light may bounce off before it reaches the one seen; -1: no limit
 };
 
-/// The camera's own size, or that of its picture with `width` x `height` > 0. Throws Error(invalid_input)
-/// where the scene has no camera.
+/// Throws Error(invalid_input) where the scene has none.
 [[nodiscard]] const Camera& camera_of(const Exchange& scene);
 
 /// `lightmaps` may be null where nothing is decoded. Throws as SceneLightmaps::decoders(), and Interrupted.

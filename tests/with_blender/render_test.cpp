@@ -98,6 +98,27 @@ TEST_F(Render, AComparisonShowsEveryPictureAndOrdersTheErrors) {
     EXPECT_TRUE(fs::exists(folder_.path() / "report" / file)) << file;
 }
 
+// The .blend itself lacks the UVs that the lightmaps were made for.
+TEST_F(Render, TakesTheSceneWithTheNewUvs) {
+  const fs::path blend = bench_.build({"plane_sun", {}});
+  const std::string lightmaps = path("lightmaps");
+  ASSERT_EQ(rnmbake({"reference", blend.string(), "-o", lightmaps, "--resolution", "16", "--samples", "1",
+                     "--unwrap", "always"}),
+            0)
+      << said_;
+  const Words flags{"--resolution", "16x9", "--samples", "4"};
+  Words decoded = flags, traced = flags;
+  decoded.insert(decoded.end(), {"--lightmaps", lightmaps, "--decode", "single"});
+  traced.insert(traced.end(), {"--decode", "truth"});
+  const LayeredImage lit = rendered(blend, "lit.exr", decoded);
+  EXPECT_NE(said_.find(".lightmap-uvs.blend"), std::string::npos) << said_;
+  const FloatImage& one = lit.find("")->pixels;
+  const LayeredImage truth = rendered(blend, "truth.exr", traced);
+  const FloatImage& other = truth.find("")->pixels;
+  // One sun and one plane: no noise, only the rounding of 16-bit lightmaps.
+  for (std::size_t i = 0; i < one.data().size(); ++i) EXPECT_NEAR(one.data()[i], other.data()[i], 2e-3);
+}
+
 TEST_F(Render, SaysWhatIsMissing) {
   const fs::path scene = bench_.exported(bench_.build({"plane_sun", {}}));
   const fs::path other = bench_.exported(bench_.build({"furnace", {}}));
