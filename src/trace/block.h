@@ -25,7 +25,7 @@ namespace rnmbake {
 
 class BlockGatherer {
  public:
-  static constexpr std::size_ttexels = 32;  // of a block, at most
+  static constexpr std::size_t texels = 32;  // of a block, at most
   static constexpr std::size_t lamp_samples =
       8;  // for each path: they cost little, and most of the noise is theirs
 
