@@ -51,14 +51,17 @@ class Job {
   std::vector<Block>& blocks() { return blocks_; }
 
   /// Takes a block as far as its plan says. `stage` separates the noise of the pilot from what counts.
-  void work(Block& block, std::uint64_t stage) const {
+  /// `go_on` is asked after each batch, with the share of this work that the batch was.
+  void work(Block& block, std::uint64_t stage, const std::function<bool(double)>& go_on) const {
     BlockGatherer gatherer(scene_, sites_, options_, own_ ? &*own_ : nullptr);
     if (!block.tally) block.tally = std::make_unique<BatchTally>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
     const std::span texels(&sites_.texels()[block.first], block.count);
+    const double share = 1.0 / std::max(1, block.batches - block.tally->batches());
     while (block.tally->batches() < block.batches) {
       const auto number = static_cast<std::uint64_t>(block.tally->batches());
       gatherer.batch(texels, block.batch_samples, hash_of(seed, number), *block.tally);
+      if (!go_on(share)) return;
     }
     block.rays += gatherer.rays();
     block.back_faces.resize(block.count);
@@ -263,12 +266,13 @@ class Group {
     }
     std::atomic<bool> stopped = false;
     tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-      if (stopped || (stop_ && stop_())) {
-        stopped = true;
-        return;
-      }
-      tasks[i].job->work(*tasks[i].block, stage);
-      reporter_.advance(weight * double(tasks[i].block->count), tasks[i].job->index());
+      if (stopped) return;
+      const Task& task = tasks[i];
+      task.job->work(*task.block, stage, [&](double share) {
+        reporter_.advance(weight * share * double(task.block->count), task.job->index());
+        if (stop_ && stop_()) stopped = true;
+        return !stopped;
+      });
     });
     return !stopped;
   }
