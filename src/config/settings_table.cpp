@@ -255,7 +255,7 @@ std::vector<Setting> make_settings_table() {
           .only({Purpose::reference}),
       reference(
           "faults", &Reference::faults,
-          "flat-normal-map: which of tilt-clamp, bump-shadowing, self-reflection, below-horizon; or none")
+          "flat-normal-map: which of tilt-clamp, bump-shadowing, self-reflection, below-horizon, no-diffuse; or none")
           .empty_means("all that the Blender version has")
           .only({Purpose::reference}),
       reference("blender_version", &Reference::blender_version,

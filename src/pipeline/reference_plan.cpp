@@ -19,10 +19,11 @@ struct NamedFault {
   const char* name;
   bool RecipeFaults::*on;
 };
-constexpr std::array<NamedFault, 4> known_faults{{{"tilt-clamp", &RecipeFaults::tilt_clamp},
+constexpr std::array<NamedFault, 5> known_faults{{{"tilt-clamp", &RecipeFaults::tilt_clamp},
                                                   {"bump-shadowing", &RecipeFaults::bump_shadowing},
                                                   {"self-reflection", &RecipeFaults::self_reflection},
-                                                  {"below-horizon", &RecipeFaults::below_horizon}}};
+                                                  {"below-horizon", &RecipeFaults::below_horizon},
+                                                  {"no-diffuse", &RecipeFaults::no_diffuse}}};
 
 RecipeFaults faults_named(const std::vector<std::string>& names, const std::string& where) {
   RecipeFaults faults;
@@ -35,7 +36,7 @@ RecipeFaults faults_named(const std::vector<std::string>& names, const std::stri
       for (const NamedFault& fault : known_faults) words.emplace_back(fault.name);
       fail(ExitCode::usage,
            "{}: '{}' is no fault of the recipe; give tilt-clamp, bump-shadowing, self-reflection, "
-           "below-horizon, or none alone{}",
+           "below-horizon, no-diffuse, or none alone{}",
            where, name, did_you_mean(name, words));
     }
   }

@@ -31,11 +31,12 @@ struct Fault {
   const char* folder;
   bool RecipeFaults::*on;
 };
-constexpr std::array<Fault, 4> all_faults{
+constexpr std::array<Fault, 5> all_faults{
     {{"tilt clamp", "1-tilt-clamp", &RecipeFaults::tilt_clamp},
      {"bump shadowing", "2-bump-shadowing", &RecipeFaults::bump_shadowing},
      {"self-reflection", "3-self-reflection", &RecipeFaults::self_reflection},
-     {"light from below", "4-below-horizon", &RecipeFaults::below_horizon}}};
+     {"light from below", "4-below-horizon", &RecipeFaults::below_horizon},
+     {"no diffuse reflection", "5-no-diffuse", &RecipeFaults::no_diffuse}}};
 
 class ValidateRun {
  public:

@@ -39,6 +39,7 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
       back_faces_(texels) {
   if (!options.faults.any()) return;
   recipe_.emplace(options.faults, options.blender_version);
+  own_ = own;
   if (!options.faults.self_reflection) return;
   path_.own = own;
   path_.recipe = &*recipe_;
@@ -54,6 +55,10 @@ void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::ui
       Sampler sampler(hash_of(seed, 2 * i), static_cast<std::uint32_t>(s));
       set_out(i, block[i], sampler);
       look_around(i);
+      if (is_black(block[i])) {
+        found_[i].radiance = Vec3(0);
+        continue;
+      }
       shoot(i, sampler);
       if (lamps) sample_lamps(i, block[i], hash_of(seed, 2 * i + 1), s);
     }

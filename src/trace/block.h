@@ -66,6 +66,10 @@ class BlockGatherer {
 
   /// Few enough for a lobe each.
   [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
+  /// Of a surface without a diffuse closure the recipe bakes nothing.
+  [[nodiscard]] bool is_black(const TexelSite& texel) const {
+    return recipe_ && recipe_->faults().no_diffuse && own_->is_black(texel.triangle);
+  }
   /// From where light counts: over the face, or (zero) from everywhere.
   [[nodiscard]] Vec3 horizon(std::size_t i) const {
     return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : here_[i].face;
@@ -75,6 +79,7 @@ class BlockGatherer {
   const Sites& sites_;
   const GatherOptions& options_;
   std::optional<Recipe> recipe_;
+  const OwnSurface* own_ = nullptr;  // where the recipe has faults
   PathOptions path_;
   std::size_t directions_, coefficients_;
   bool framed_;             // whether `Here` needs its frame

@@ -39,7 +39,7 @@ class Job {
         target_(target),
         options_(options),
         sites_(*target.surface, target.width, target.height, options.footprint) {
-    if (options.faults.self_reflection) own_.emplace(scene, target);
+    if (options.faults.any()) own_.emplace(scene, target);
     for (std::size_t first = 0; first < sites_.texels().size(); first += BlockGatherer::texels) {
       blocks_.push_back(
           {first, std::min(BlockGatherer::texels, sites_.texels().size() - first), 1, 0, {}, 0, {}});

@@ -68,10 +68,14 @@ float Recipe::shadowing(const Closure& closure, const Vec3& direction) const {
 
 OwnSurface::OwnSurface(const TraceScene& scene, const GatherTarget& target)
     : scene_(scene), surface_(*target.surface), object_(static_cast<std::uint32_t>(target.object)) {
+  const Exchange& exchange = scene.exchange();
+  const Mesh& mesh = exchange.survey.mesh_of(exchange.survey.objects[target.object]);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const std::uint32_t source = surface_.triangles[t].source;
     if (source >= of_source_.size()) of_source_.resize(std::size_t(source) + 1, absent);
     of_source_[source] = static_cast<std::uint32_t>(t);
+    const Look& look = exchange.look(target.object, mesh.polygon_slot[mesh.triangle_polygon[source]]);
+    black_.push_back(look.albedo_picture < 0 && look.albedo == Vec3(0));
   }
 }
 

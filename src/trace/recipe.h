@@ -56,6 +56,8 @@ class OwnSurface {
   [[nodiscard]] bool holds(const Vertex& vertex) const { return place_of(vertex) != absent; }
   /// World-space direction of a tangent-space vector at a vertex that it holds, on the side that is seen.
   [[nodiscard]] Vec3 direction(const Vertex& vertex, const Vec3& basis) const;
+  /// Whether a triangle (of the surface) reflects nothing at all.
+  [[nodiscard]] bool is_black(std::uint32_t triangle) const { return black_[triangle]; }
 
  private:
   static constexpr std::uint32_t absent = ~std::uint32_t{0};
@@ -64,6 +66,7 @@ class OwnSurface {
   const TraceScene& scene_;
   const Surface& surface_;
   std::uint32_t object_;
+  std::vector<bool> black_;               // [triangles of the surface]
   std::vector<std::uint32_t> of_source_;  // number of the mesh's triangle -> of the surface's
 };
 

@@ -54,9 +54,9 @@ TEST(ReferencePlan, TheTruthHasNoFaults) {
 TEST(ReferencePlan, TheRecipeHasTheFaultsOfItsVersion) {
   const Texts recipe{{"model", "flat-normal-map"}};
   EXPECT_EQ(names_of(plan_reference(with(recipe), "3.5.1").faults),
-            (Names{"tilt-clamp", "bump-shadowing", "self-reflection", "below-horizon"}));
+            (Names{"tilt-clamp", "bump-shadowing", "self-reflection", "below-horizon", "no-diffuse"}));
   EXPECT_EQ(names_of(plan_reference(with(recipe), "3.6.0").faults),
-            (Names{"bump-shadowing", "self-reflection", "below-horizon"}));
+            (Names{"bump-shadowing", "self-reflection", "below-horizon", "no-diffuse"}));
 }
 
 TEST(ReferencePlan, FaultsCanBeChosen) {

@@ -75,5 +75,15 @@ TEST(Recipe, FurnaceComesOutAsInEachBlender) {
   }
 }
 
+TEST(Recipe, WhatReflectsNothingBakesBlack) {
+  Exchange scene;
+  add_object(scene, "floor", {level(1, 0)}, Vec3(0));
+  scene.world.radiance = Vec3(1);
+  GatherOptions options = recipe_options("4.3.2", 16);
+  EXPECT_GT(gather_one(scene, 0, options, 4, 4).directions[0].mean[0], 0.9);
+  options.faults.no_diffuse = true;
+  EXPECT_EQ(gather_one(scene, 0, options, 4, 4).directions[0].mean[0], 0);
+}
+
 }  // namespace
 }  // namespace rnmbake
