@@ -94,7 +94,7 @@ BlenderVersion blender_version_of(const std::string& text, const std::string& wh
 }
 
 RecipeFaults faults_of(const BlenderVersion& version) {
-  return {version < first_without_tilt_clamp, true, true, true};
+  return {version < first_without_tilt_clamp, true, true, true, true};
 }
 
 std::vector<std::string> names_of(const RecipeFaults& faults) {

@@ -23,11 +23,10 @@ struct RecipeFaults {
   bool tilt_clamp = false;       // Blender 3.4, 3.5: the closure's normal is bent towards the surface's
   bool bump_shadowing = false;   // a factor below 1 on closures whose normal is not the surface's
   bool self_reflection = false;  // the object's own surface has the basis normal for its bounces too
-  bool no_diffuse =
-      false;  // surfaces of albedo 0, such as lamps, bake black: their closure is all that counts
-  bool below_horizon = false;  // lamps under the surface but above the basis' horizon count
+  bool below_horizon = false;    // lamps under the surface but above the basis' horizon count
+  bool no_diffuse = false;       // surfaces that reflect nothing, such as lamps, bake black
   [[nodiscard]] bool any() const {
-    return tilt_clamp || bump_shadowing || self_reflection || no_diffuse || below_horizon;
+    return tilt_clamp || bump_shadowing || self_reflection || below_horizon || no_diffuse;
   }
 };
 
