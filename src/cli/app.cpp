@@ -35,7 +35,8 @@ constexpr const char* purpose =
     "rnmbake bakes the light of a Blender or glTF scene into directional lightmaps: for each\n"
     "object one EXR with the plain lightmap and the three maps of the Half-Life 2 basis (radiosity\n"
     "normal maps), from which an engine lights normal-mapped surfaces. Blender's Cycles does the\n"
-    "tracing, headless; the encoding is exact, and every file says in its header what it holds.";
+    "tracing, headless; the encoding is exact, and every file says in its header what it holds.\n"
+    "A path tracer of its own tells how exact.";
 
 constexpr const char* examples =
     "Examples:\n"
@@ -43,7 +44,10 @@ constexpr const char* examples =
     "  rnmbake inspect hall.blend                       what would be baked, at which size\n"
     "  rnmbake bake hall.blend -o lightmaps             bake everything\n"
     "  rnmbake bake hall.toml --samples 64              a project file, with one setting changed\n"
-    "  rnmbake validate hall.blend -o report            how wrong is the bake, and why?\n"
+    "  rnmbake validate hall.blend -o proof             how wrong is the bake, and why?\n"
+    "  rnmbake reference hall.blend -o truth            what the lightmaps should hold, traced\n"
+    "  rnmbake compare lightmaps truth -o report        how far apart are the two?\n"
+    "  rnmbake render hall.blend --lightmaps lightmaps -o view.png\n"
     "  rnmbake decode lightmaps/floor.exr --normal n.png -o lit.exr\n"
     "\n"
     "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"

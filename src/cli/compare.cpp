@@ -110,7 +110,7 @@ void add_results(CLI::App& command, Options& options) {
 std::function<int()> add_compare_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("compare", "how far two sets of lightmaps are from each other, noise taken out");
+      app.add_subcommand("compare", "How far two sets of lightmaps are from each other, noise taken out");
   add_sides(*command, *options);
   add_scope(*command, *options);
   add_results(*command, *options);

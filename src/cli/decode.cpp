@@ -187,7 +187,7 @@ void add_meaning(CLI::App& command, DecodeOptions& options) {
 
 std::function<int()> add_decode_command(CLI::App& app) {
   auto options = std::make_shared<DecodeOptions>();
-  CLI::App* command = app.add_subcommand("decode", "light a normal map with a lightmap, as a shader would");
+  CLI::App* command = app.add_subcommand("decode", "Light a normal map with a lightmap, as a shader would");
   add_pictures(*command, *options);
   add_meaning(*command, *options);
   command->add_option("--exposure", options->exposure, "multiply the result by 2^STOPS [0]")

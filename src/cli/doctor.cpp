@@ -168,7 +168,7 @@ int doctor(const DoctorOptions& options, std::ostream& out) {
 
 std::function<int()> add_doctor_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("doctor", "what was found on this machine, what is missing, how to get it");
+      app.add_subcommand("doctor", "What was found on this machine, what is missing, how to get it");
   const auto options = std::make_shared<DoctorOptions>();
   command
       ->add_option("--blender", options->blender,

@@ -120,7 +120,7 @@ void export_to_file(const ResolvedConfig& config, bool json_wanted, std::ostream
 
 std::function<int()> add_export_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("export", "write a scene as the reference tracer sees it into one file");
+      app.add_subcommand("export", "Write a scene as the reference tracer sees it into one file");
   const auto flags = std::make_shared<ExportFlags>(*command);
   return [flags] {
     const auto config = flags->settings.resolve();

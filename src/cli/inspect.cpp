@@ -42,7 +42,7 @@ void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
 
 std::function<int()> add_inspect_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("inspect", "what is in a scene, and what would be baked at which size");
+      app.add_subcommand("inspect", "What is in a scene, and what would be baked at which size");
   const auto flags = std::make_shared<InspectFlags>(*command);
   return [flags] {
     const auto config = flags->settings.resolve();

@@ -1,4 +1,4 @@
-# The demo: bakes the courtyard and makes pictures of its lightmaps. Sourced by ./dev.
+# The demo: bakes the courtyard, makes pictures of its lightmaps, and proves two scenes. Sourced by ./dev.
 
 # NAME.exr -> pictures/NAME.{flat,rnm0,rnm1,rnm2}.png, exposed for the sunlit parts. A normal equal to a basis vector
 # decodes to that vector's map.
@@ -16,13 +16,25 @@ pictures() {
   done
 }
 
+# How wrong is the bake of a scene? Small maps, so that it takes a minute or two; prints the finding.
+prove() {
+  build/release/rnmbake validate "scenes/$1.toml" -o "out/demo/validate-$1" --resolution 32 --samples 64 --view 320
+}
+
 demo() {
   build release --target rnmbake
-  scenes panels
+  scenes panels cave
   build/release/rnmbake bake scenes/panels.toml -o out/demo
   pictures out/demo
+  local scene findings=()
+  for scene in panels cave; do
+    findings+=("$scene: $(prove "$scene")") || die "the validation of $scene failed"
+  done
   echo
-  echo "Lightmaps ($(find out/demo -name '*.exr' | wc -l), layered EXR) and manifest.json: $PWD/out/demo"
+  echo "Lightmaps ($(find out/demo -maxdepth 1 -name '*.exr' | wc -l), layered EXR) and manifest.json: $PWD/out/demo"
   echo "Pictures of them:  $PWD/out/demo/pictures"
+  echo "How exact they are, as pages for a browser:"
+  printf '  %s\n' "$PWD"/out/demo/validate-{panels,cave}/report.html
+  printf '%s\n' "${findings[@]}"
   echo "Try:  build/release/rnmbake inspect scenes/panels.toml"
 }
