@@ -1,6 +1,7 @@
-// Bakes the closed forms with every Blender it is given and writes what came out: docs/accuracy.md.
+// Bakes the closed forms with every Blender it is given and writes what came out: a part of
+// docs/accuracy.md, which bench/scene_accuracy.py puts together.
 //
-//   accuracy --blender 3.4=/usr/bin/blender --blender 4.3=... -o docs/accuracy.md
+//   accuracy --blender 3.4=/usr/bin/blender --blender 4.3=... -o closed_forms.md
 #include "base/error.h"
 #include "base/files.h"
 #include "closed_forms/cases.h"
@@ -48,7 +49,7 @@ class Chapter {
       : label_(std::move(label)), bench_(RNMBAKE_BINARY, blender) {}
 
   std::string write() {
-    text_ = fmt::format("\n## Blender {} ({})\n", label_, bench_.blender().version_text);
+    text_ = fmt::format("\n### Blender {} ({})\n", label_, bench_.blender().version_text);
     suns();
     unusual();
     uniform();
@@ -151,9 +152,9 @@ class Chapter {
   std::string text_;
 };
 
-const char* const introduction = R"(# Accuracy
+const char* const introduction = R"(## Closed forms
 
-Written by `./dev accuracy`, which bakes the scenes with a closed form (`scenes/README.md`) through the whole
+`./dev accuracy closed-forms` bakes the scenes with a closed form (`scenes/README.md`) through the whole
 command line and compares. Values are E/pi; suns have a strength of pi, so that 1 is all they give.
 `tests/with_blender/closed_forms_test.cpp` holds the `receiver` recipe to these formulas.
 
@@ -180,7 +181,7 @@ std::string chapter(const std::string& label, const std::string& blender) {
   try {
     return Chapter(label, blender).write();
   } catch (const Error& error) {
-    return fmt::format("\n## Blender {}\n\nNot measured: {}\n", label, error.what());
+    return fmt::format("\n### Blender {}\n\nNot measured: {}\n", label, error.what());
   }
 }
 
@@ -201,9 +202,9 @@ void write_report(const std::vector<std::string>& blenders, const std::string& o
 }  // namespace rnmbake
 
 int main(int argc, char** argv) {
-  CLI::App app{"Bakes the closed forms and writes docs/accuracy.md"};
+  CLI::App app{"Bakes the closed forms and writes what came out"};
   std::vector<std::string> blenders{"default=blender"};
-  std::string output = "docs/accuracy.md";
+  std::string output = "closed_forms.md";
   app.add_option("--blender", blenders, "VERSION=PATH; may be repeated");
   app.add_option("-o,--output", output, "file to write");
   CLI11_PARSE(app, argc, argv);

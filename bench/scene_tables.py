@@ -1,0 +1,142 @@
+"""The part of docs/accuracy.md about scenes, from the figures that are kept."""
+from scene_figures import CHANCE, NEGLIGIBLE, distance, holds, holds_zero, known, pairs, residuals
+from tables import table
+
+CAUSES = ["tilt clamp", "bump shadowing", "self-reflection", "light from below", "no diffuse reflection",
+          "non-Lambertian diffuse"]
+LISTED = 6  # biases beyond chance of one scene, the farthest first
+
+HEAD = """## Scenes
+
+`./dev accuracy scenes` runs [`rnmbake validate`](validate.md) on each scene and keeps the figures in
+`bench/results/scene_accuracy.json`. Everything is a share of the reference's mean over the same texels, with its 95 %
+interval in brackets. Scenes of our own are in `scenes/`; cornell_box, living_room and staircase2 were made by others,
+are not part of this repository and were not made for lightmaps."""
+
+RECEIVER = f"""### receiver against the reference
+
+Bakes with `--materials lambert`, the model of the reference. A pair is an object and one of its four maps; it holds
+where the bias lies within its interval or is at most {100 * NEGLIGIBLE:g} % of the mean. Of true 95 % intervals about one in
+twenty does not hold the truth, so the number of pairs that do not hold is to be read beside the one that chance makes of
+an exact bake. RMSE is free of noise as far as two halves can tell; of the scene, flat."""
+
+RECIPE = """### What flat-normal-map's error is made of
+
+The mean error of the published recipe over the whole scene, taken apart ([how](validate.md#where-the-error-comes-from)).
+The residual is what no named cause explains; its interval should hold 0."""
+
+MODEL = """### What the reference has no model for
+
+The scene's own materials (glossy, glass and so on) in `receiver`, minus the same scene of plain diffuse ones. It is
+light that the reference leaves out, not an error of either."""
+
+
+def text(results):
+    runs = [run for run in results["runs"] if "failed" not in run]
+    sections = [HEAD, measured_when(runs), RECEIVER, receiver_table(runs), beyond(runs), RECIPE, recipe_table(runs),
+                residual_words(runs), *model(runs), *picture(results["other_renderer"]), *failures(results["runs"])]
+    return "\n\n".join(section for section in sections if section)
+
+
+def measured_when(runs):
+    """The days and machines."""
+    seen = sorted({f"{run['date']}, {run['machine']}" for run in runs})
+    return f"Measured on {'; '.join(seen)}." if seen else "Not measured yet."
+
+
+def percent(estimate, digits=2):
+    """value (low to high)"""
+    if not known(estimate):
+        return "-"
+    value, low, high = (f"{100 * number:+.{digits}f}" for number in estimate)
+    return f"{value} % ({low} to {high})"
+
+
+def short(estimate):
+    return f"{100 * estimate[0]:+.1f}" if estimate and known(estimate) else "-"
+
+
+def receiver_table(runs):
+    head = ["scene", "Blender", "texels, paths", "objects", "pairs that do not hold", "chance makes", "largest bias of a pair",
+            "of the scene, flat", "its farthest basis", "RMSE"]
+    return table(head, [receiver_row(run) for run in runs])
+
+
+def receiver_row(run):
+    all_pairs = list(pairs(run))
+    flat = run["whole"]["flat"]
+    largest = max(all_pairs, key=lambda pair: abs(pair[2][0]))
+    farthest = max((row["bias"] for name, row in run["whole"].items() if name != "flat"), key=distance)
+    return [run["scene"], run["blender"], f"{run['resolution']}, {run['samples']}", str(len(run["objects"])),
+            f"{len(outside(run))} of {len(all_pairs)}", f"{chance(all_pairs):.1f}",
+            f"{percent(largest[2])} `{largest[0]}` {largest[1]}", percent(flat["bias"]), percent(farthest),
+            f"{100 * flat['rmse']:.1f} %"]
+
+
+def chance(all_pairs):
+    """How many pairs of an exact bake do not hold: one in twenty of those whose interval is wider than what is accepted."""
+    return CHANCE * sum((bias[2] - bias[1]) / 2 > NEGLIGIBLE for _, _, bias in all_pairs)
+
+
+def outside(run):
+    missed = [pair for pair in pairs(run) if not holds(pair[2])]
+    return sorted(missed, key=lambda pair: -distance(pair[2]))
+
+
+def beyond(runs):
+    """Which pairs do not hold, the farthest first."""
+    lines = []
+    for run in runs:
+        listed = outside(run)
+        words = ", ".join(f"`{one}` {basis} {percent(bias)}" for one, basis, bias in listed[:LISTED])
+        more = f", and {len(listed) - LISTED} nearer ones" if len(listed) > LISTED else ""
+        if listed:
+            lines.append(f"- {run['scene']}, {run['blender']}: {words}{more}.")
+    return "What does not hold, the farthest first (measured by its interval):\n\n" + "\n".join(lines) if lines else ""
+
+
+def recipe_table(runs):
+    head = ["scene", "Blender", "map", *CAUSES, "noise (RMSE)", "residual", "total"]
+    rows = [[run["scene"], run["blender"], basis, *(short(parts.get(cause)) for cause in CAUSES),
+             f"{100 * parts['noise']:.1f}", percent(parts["residual"]), short(parts["total"])]
+            for run in runs for basis, parts in run["whole_recipe"].items()]
+    return "In % of the mean; a dash where that Blender or scene has no such cause.\n\n" + table(head, rows)
+
+
+def residual_words(runs):
+    """How often the residual's interval holds 0, over scenes and over objects."""
+    scenes = [parts["residual"] for run in runs for parts in run["whole_recipe"].values() if known(parts["residual"])]
+    objects = [residual for run in runs for _, _, residual in residuals(run)]
+    if not scenes:
+        return ""
+    return (f"The residual's interval holds 0 in {sum(map(holds_zero, scenes))} of these {len(scenes)} rows, and in "
+            f"{sum(map(holds_zero, objects))} of {len(objects)} pairs of an object and a map;\nwere nothing unexplained, "
+            f"chance would leave {(1 - CHANCE) * len(scenes):.0f} and {(1 - CHANCE) * len(objects):.0f}.")
+
+
+def model(runs):
+    """A section if the materials of any scene are not plain diffuse."""
+    rows = [[run["scene"], run["blender"], *(percent(parts.get("model difference", [None])) for parts in
+                                             run["whole_recipe"].values()),
+             f"{sum(bool(one['outside_model']) for one in run['objects'])} of {len(run['objects'])}"]
+            for run in runs if any("model difference" in parts for parts in run["whole_recipe"].values())]
+    return [MODEL, table(["scene", "Blender", "flat", "rnm0", "rnm1", "rnm2", "objects outside the model"], rows)] if rows else []
+
+
+def picture(found):
+    """Our tracer against a renderer that shares nothing with it or Cycles."""
+    if not found:
+        return []
+    medians = ", ".join(f"{value:.4f}" for value in found["medians"])
+    return [f"""### Another renderer
+
+cornell_box comes with a picture by the Tungsten renderer. Our tracer shows the same view (`rnmbake render` with
+`--decode truth`, {found['side']} x {found['side']} pixels, {found['samples']} rays each, Blender {found['blender']}). With E = pi L / albedo on the
+diffuse surfaces, and the same albedo on both sides, irradiances compare as the pixels do. Ours / theirs over {found['pixels']:,}
+pixels and three colours: median **{found['median']:.4f}** (red, green, blue {medians}), 90 % between {found['p05']:.3f} and
+{found['p95']:.3f}; mean over mean {found['mean']:.4f}. The goal is a median within 1 %."""]
+
+
+def failures(runs):
+    lines = [f"- {run['scene']}, {run['blender']}: {run['failed']}" for run in runs if "failed" in run]
+    return ["### Not measured\n\n" + "\n".join(lines)] if lines else []
