@@ -42,6 +42,7 @@ int reference(const ResolvedConfig& config) {
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
   if (!is_exchange(settings.scene.file)) (void)blender.info();  // missing: said before anything is written
+  (void)plan_reference(config, "5.0");  // and so is a setting that makes no sense, whatever the version
   Workspace workspace(config, blender);
   prepare_output(settings.output);
   const ExportedScene exported = export_scene(workspace);

@@ -232,7 +232,9 @@ std::vector<Setting> make_settings_table() {
           .only({Purpose::bake, Purpose::validate}),
       bake("split", &Object::split, "bake each material slot or loose part as a target of its own"),
       bake("samples", &Object::samples, "paths for each texel and basis").range(1, 16'777'216),
-      bake("bounces", &Bake::bounces, "longest path of light after the first hit").range(0, 1024),
+      bake("bounces", &Bake::bounces,
+           "longest path of light after the first hit; the tracer has no limit unless this is given")
+          .range(0, 1024),
       bake("seed", &Object::seed, "noise pattern; the same seed gives the same noise"),
       bake("clamp", &Object::clamp, "cap on the radiance of one sample; biased")
           .empty_means("off")
@@ -253,9 +255,9 @@ std::vector<Setting> make_settings_table() {
       reference("model", &Reference::model,
                 "true is the truth; flat-normal-map makes the errors of the published recipe")
           .only({Purpose::reference}),
-      reference(
-          "faults", &Reference::faults,
-          "flat-normal-map: which of tilt-clamp, bump-shadowing, self-reflection, below-horizon, no-diffuse; or none")
+      reference("faults", &Reference::faults,
+                "flat-normal-map: which of tilt-clamp, bump-shadowing, self-reflection, below-horizon, "
+                "no-diffuse; or none")
           .empty_means("all that the Blender version has")
           .only({Purpose::reference}),
       reference("blender_version", &Reference::blender_version,
