@@ -10,8 +10,8 @@ namespace {
 
 constexpr float inv_pi = static_cast<float>(1 / pi);
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr int first_roulette =
-    4;  // bounces before Russian roulette: earlier it costs more noise than it saves
+// Bounces before Russian roulette. Where texels share what a path's end is worth, long paths are dear.
+constexpr int first_roulette = 1;
 
 float largest(const Vec3& c) {
   return std::max({c.x, c.y, c.z});
