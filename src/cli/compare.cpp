@@ -7,6 +7,8 @@
 #include "report/thresholds.h"
 #include "report/write.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -45,6 +47,16 @@ std::string command_of(const Options& options) {
   return line;
 }
 
+/// Texels with NaN never count; whoever reads the table alone should know.
+void say_what_is_lost(const Report& report) {
+  for (const ObjectComparison& object : report.objects) {
+    std::size_t lost = 0;
+    for (const BasisMetrics& basis : object.bases) lost = std::max(lost, basis.metrics.non_finite);
+    if (lost > 0)
+      log::warn("'{}': left out {} texel{} with NaN or infinity", object.key, lost, lost == 1 ? "" : "s");
+  }
+}
+
 int run(Options options) {
   std::vector<Threshold> thresholds;
   if (!options.fail_above.empty()) thresholds = parse_thresholds(options.fail_above);
@@ -52,6 +64,7 @@ int run(Options options) {
   options.compare.with_maps = !options.output.empty();
 
   Report report = compare_lightmaps(options.compare);
+  say_what_is_lost(report);
   report.title = report.candidate_label + " against " + report.reference_label;
   report.command = command_of(options);
   report.thresholds = check_thresholds(report, std::move(thresholds));

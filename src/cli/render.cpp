@@ -159,6 +159,8 @@ int render(ResolvedConfig config, const RenderFlags& flags) {
     OutputSettings output;
     output.dir = flags.output;
     prepare_output(output);
+  } else {
+    AtomicFile(flags.output).write(" ");  // never committed: finds out now that nothing can be written there
   }
   Stage stage(config, flags);
   if (flags.compare) {
