@@ -18,8 +18,8 @@ RESULTS = Path(__file__).resolve().parent / "results/scene_accuracy.json"
 SHARED = measure.ROOT / "../shared/scenes"
 
 # Texels a side and paths for each texel, basis and recipe: about a minute of two cores each.
-OURS = {"cornell": (32, 128), "cave": (32, 128), "hall": (16, 64), "panels": (32, 128)}
-REAL = {"cornell_box": (32, 128), "living_room": (16, 64), "staircase2": (16, 64)}
+OURS = {"cornell": (16, 128), "cave": (64, 64), "hall": (16, 32), "panels": (16, 128)}
+REAL = {"cornell_box": (16, 128), "living_room": (8, 32), "staircase2": (8, 64)}
 
 
 def arguments():
