@@ -34,11 +34,15 @@ def main():
         sys.exit("report_picture.py: no Chromium; install the package chromium")
     tab = browser.Browser()
     try:
-        tab.look_like(args.width, args.height or 900, "dark" if args.dark else "light", args.phone)
+        scheme = "dark" if args.dark else "light"
+        tab.look_like(args.width, args.height or 900, scheme, args.phone)
         tab.open(args.report)
         if args.open:
             open_object(tab, args.open)
-        tab.screenshot(args.picture, whole=args.height == 0)
+        if not args.height:  # a window as long as the page: pictures are drawn once they come into sight
+            tab.look_like(args.width, tab.run("document.documentElement.scrollHeight"), scheme, args.phone)
+        tab.run("new Promise(done => setTimeout(done, 500))")
+        tab.screenshot(args.picture, whole=False)
     finally:
         tab.close()
     for problem in tab.problems:
