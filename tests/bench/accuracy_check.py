@@ -43,10 +43,9 @@ class Kept(unittest.TestCase):
     def test_a_run_replaces_the_older_one_of_the_same_scene_and_blender(self):
         with tempfile.TemporaryDirectory() as folder:
             scene_accuracy.RESULTS = Path(folder) / "results.json"
-            results = scene_accuracy.read()
             for run in (run_of([0, 0, 0]), {**run_of(), "scene": "cave"}, run_of([1, 0, 2])):
-                scene_accuracy.keep(results, run)
-            self.assertEqual(scene_accuracy.read(), results)
+                scene_accuracy.keep(run)
+            results = scene_accuracy.read()
         self.assertEqual([run["scene"] for run in results["runs"]], ["cornell", "cave"])
         self.assertEqual(results["runs"][0], run_of([1, 0, 2]))
 
