@@ -63,12 +63,13 @@ def pairs(run):
     """(object, basis, bias) where the reference is not black."""
     for one in run["objects"]:
         for basis, row in one["bases"].items():
-            if known(row["bias"]):
+            if row["mean"] and known(row["bias"]):
                 yield one["object"], basis, row["bias"]
 
 
 def residuals(run):
+    """The same of what no cause explains."""
     for one in run["objects"]:
         for basis, residual in one["residual"].items():
-            if known(residual):
+            if one["bases"][basis]["mean"] and known(residual):
                 yield one["object"], basis, residual

@@ -28,7 +28,10 @@ class Counting(unittest.TestCase):
         self.assertFalse(scene_figures.holds([-0.0031, -0.0035, -0.0025]))
 
     def test_black_references_do_not_count(self):
-        self.assertEqual(len(list(scene_figures.pairs(run_of([None, None, None], [0, -1, 1])))), 1)
+        run = run_of([None, None, None], [0, 0, 0], [0, -1, 1])
+        run["objects"][1]["bases"]["flat"]["mean"] = 0.0
+        self.assertEqual([name for name, _, _ in scene_figures.pairs(run)], ["o2"])
+        self.assertEqual([name for name, _, _ in scene_figures.residuals(run)], ["o2"])
 
     def test_the_farthest_comes_first(self):
         missed = scene_tables.outside(run_of([0.2, 0.1, 0.3], [0.1, 0.09, 0.11], [0, -1, 1]))
