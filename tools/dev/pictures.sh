@@ -5,18 +5,21 @@ views=out/pictures/views
 # Views side by side, as shown on a screen. The arguments name them: upper left, upper right, lower left, lower right.
 mosaic() {
   oiiotool "${@/#/$views/}" --mosaic:pad=4 2x2 --clamp:min=0:max=1 --colorconvert linear sRGB --ch R,G,B \
-    -d uint8 --compression zip:9 -o docs/images/views.png
+    -d uint8 --compression jpeg:92 -o docs/images/views.jpg
 }
 
-# docs/images/report.png, whose finding goes to stdout, and views.png with the errors of its parts.
+# docs/images/report.png, whose finding goes to stdout, and views.jpg with the errors of its parts.
 pictures() {
   require "${test_packages[@]}"
   build release --target rnmbake
   scenes panels
   local rnmbake=build/release/rnmbake
-  "$rnmbake" validate scenes/panels.toml -o out/pictures/validate --resolution 64 --samples 256 --view 320
-  python3 tools/dev/report_picture.py out/pictures/validate/report.html docs/images/report.png
-  "$rnmbake" -q bake scenes/panels.toml -o out/pictures/lightmaps --materials lambert --normalize flat --samples 256
-  "$rnmbake" -q render scenes/panels.toml --lightmaps out/pictures/lightmaps --compare --resolution 400x250 -o "$views"
+  "$rnmbake" validate scenes/panels.toml -o out/pictures/validate --resolution 32 --samples 64 --view 320
+  python3 tools/dev/report_picture.py out/pictures/validate/report.html docs/images/report.png \
+    --width 1200 --height 1240
+  "$rnmbake" -q bake scenes/panels.toml -o out/pictures/lightmaps --materials lambert --normalize flat \
+    --resolution 96 --samples 48
+  "$rnmbake" -q render scenes/panels.toml --lightmaps out/pictures/lightmaps --compare --resolution 400x250 \
+    --samples 64 -o "$views"
   mosaic cycles.exr truth.exr single-lightmap.exr rnm-squared.exr
 }
