@@ -73,7 +73,7 @@ class ValidateRun {
     steps.begin("comparing", 0.1);
     Validation result = compare(study);
     for (const ViewComparison& one : views) {
-      result.receiver.notes.push_back("Seen by the camera, against the truth: " + finding_of(one));
+      result.receiver.notes.push_back(finding_of(one));
       result.receiver.views.push_back(one);
     }
     return result;
