@@ -12,11 +12,11 @@ Written by `./dev accuracy`; do not edit. Two parts: [scenes](#scenes), in which
 """
 
 
-def write(results, closed_forms=None):
+def write(results, scenes, closed_forms=None):
     """Renews the scenes, and the closed forms where a file has their text."""
     old = DOCUMENT.read_text(encoding="utf-8") if DOCUMENT.exists() else ""
     kept = closed_forms.read_text(encoding="utf-8") if closed_forms else part(old, "closed forms")
-    text = "\n".join([INTRODUCTION, marked("scenes", scene_tables.text(results)), marked("closed forms", kept)])
+    text = "\n".join([INTRODUCTION, marked("scenes", scene_tables.text(results, scenes)), marked("closed forms", kept)])
     DOCUMENT.write_text(text, encoding="utf-8")
     say(f"wrote {DOCUMENT.relative_to(ROOT)}")
 

@@ -137,7 +137,7 @@ def main():
     if not options.report:
         measure_picture(options, results)
         measure_all(options, results)
-    accuracy_page.write(read(), options.closed_forms)
+    accuracy_page.write(read(), [*OURS, *REAL], options.closed_forms)
 
 
 if __name__ == "__main__":

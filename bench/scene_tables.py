@@ -45,17 +45,19 @@ light that the reference leaves out, not an error of either. `cornell_box` passe
 that difference is not in this table, but in the next section."""
 
 
-def text(results):
+def text(results, scenes):
     runs = [run for run in results["runs"] if "failed" not in run]
-    sections = [HEAD, measured_when(runs), RECEIVER, receiver_table(runs), beyond(runs), LIMITS, RECIPE, recipe_table(runs),
+    sections = [HEAD, measured_when(runs, scenes), RECEIVER, receiver_table(runs), beyond(runs), LIMITS, RECIPE, recipe_table(runs),
                 residual_words(runs), *model(runs), *picture(results["other_renderer"]), *failures(results["runs"])]
     return "\n\n".join(section for section in sections if section)
 
 
-def measured_when(runs):
-    """The days and machines."""
+def measured_when(runs, scenes):
+    """The days and machines, and what is missing."""
     seen = sorted({f"{run['date']}, {run['machine']}" for run in runs})
-    return f"Measured on {'; '.join(seen)}." if seen else "Not measured yet."
+    missing = [f"`{one}`" for one in scenes if one not in {run["scene"] for run in runs}]
+    return ((f"Measured on {'; '.join(seen)}." if seen else "") +
+            (f" Not measured yet: {', '.join(missing)}." if missing else "")).strip()
 
 
 def percent(estimate, digits=2):
@@ -169,5 +171,6 @@ def ratio_row(title, ratios):
 
 
 def failures(runs):
+    """Scenes that ended with an error, in its words."""
     lines = [f"- {run['scene']}, {run['blender']}: {run['failed']}" for run in runs if "failed" in run]
     return ["### Not measured\n\n" + "\n".join(lines)] if lines else []
