@@ -248,8 +248,11 @@ void BlockGatherer::share(std::size_t finder, std::size_t count) {
     const Vec3 way = found.position - here_[who[k]].position;
     const float distance2 = way.dot(way), distance = std::sqrt(distance2);
     directions[k] = way / distance;
-    solid_angles[k] = std::max(0.0F, -way.dot(found.face)) / (distance * distance2);
-    density += lobes_[who[k]].pdf(directions[k]) * solid_angles[k];
+    // A place that is all but touched can come out under the face by rounding, and nothing bounds its weight
+    // then.
+    const float pdf = lobes_[who[k]].pdf(directions[k]);
+    if (pdf > 0) solid_angles[k] = std::max(0.0F, -way.dot(found.face)) / (distance * distance2);
+    density += pdf * solid_angles[k];
   }
   if (!(density > 0) || !std::isfinite(density)) return;
   for (std::size_t k = 0; k < seeing; ++k)
