@@ -67,6 +67,9 @@ def outside_of(node):
     elif node.type == "BSDF_DIFFUSE":
         if not is_zero(node, "Roughness"):
             yield "rough diffuse"
+    elif node.type == "NEW_GEOMETRY":
+        if node.outputs["Backfacing"].is_linked:
+            yield "backfacing"  # looks different from behind
     elif node.type in CLOSURES:
         yield CLOSURES[node.type]
 

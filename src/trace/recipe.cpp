@@ -37,6 +37,12 @@ Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& towards) {
   return best;
 }
 
+bool reflects_nothing(const Exchange& scene, const Look& look) {
+  if (look.albedo_picture < 0) return look.albedo == Vec3(0);
+  const auto& texels = scene.pictures[static_cast<std::size_t>(look.albedo_picture)].texels;
+  return std::all_of(texels.begin(), texels.end(), [](const Vec3& texel) { return texel == Vec3(0); });
+}
+
 bool is_at_least(const std::string& version, int major, int minor) {
   int have_major = 0, have_minor = 0;
   if (std::sscanf(version.c_str(), "%d.%d", &have_major, &have_minor) != 2) {
@@ -75,7 +81,7 @@ OwnSurface::OwnSurface(const TraceScene& scene, const GatherTarget& target)
     if (source >= of_source_.size()) of_source_.resize(std::size_t(source) + 1, absent);
     of_source_[source] = static_cast<std::uint32_t>(t);
     const Look& look = exchange.look(target.object, mesh.polygon_slot[mesh.triangle_polygon[source]]);
-    black_.push_back(look.albedo_picture < 0 && look.albedo == Vec3(0));
+    black_.push_back(reflects_nothing(exchange, look));
   }
 }
 
