@@ -28,15 +28,13 @@ LIMITS = """What was looked into, with other seeds and more paths, Blender 3.4.1
 - `left`, `floor` and `back` are not: with other seeds none of their twelve pairs is outside its interval, and `left` with 2048 paths
   is off by +0.04 % in rnm0 (-0.40 to +0.48).
 - The pillars and statues of `hall` have triangles smaller than a texel, too; nothing else was tried there. Intervals do not know of rare
-  bright texels that a few paths did not find: they are too short where most of an object is dark.
-- `cave` with 4.3.2: one path of the reference, in texel 13, 2, weighs more than all others together (its mean comes out as 78 in place of
-  0.29). With another seed it does not occur. It is a fault of the tracer that is not found yet; that row says nothing about the bake."""
+  bright texels that a few paths did not find: they are too short where most of an object is dark."""
 
 RECIPE = """### What flat-normal-map's error is made of
 
 The mean error of the published recipe over the whole scene, taken apart ([how](validate.md#where-the-error-comes-from)).
 The residual is what no named cause explains; its interval should hold 0. Where it does not in cornell_box, it is the lamp: its material
-has a black diffuse part, which the recipe bakes black, and the fault "no diffuse reflection" is not charged for it yet."""
+has a black diffuse part, which the recipe bakes black, and the fault "no diffuse reflection" was not charged for pictures when that row was measured."""
 
 MODEL = """### What the reference has no model for
 
