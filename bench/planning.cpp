@@ -3,8 +3,8 @@
 // bench_planning SURVEY.json FOLDER [REPEATS] prints one JSON object; the receivers' arrays go to FOLDER.
 #include "bake/plan.h"
 #include "bake/request.h"
-#include "scene/surface.h"
 #include "base/error.h"
+#include "scene/surface.h"
 #include "scene/survey.h"
 #include "scene/uv_report.h"
 

@@ -18,7 +18,8 @@ struct CyclesSettings {
   int samples = 256, bounces = 32, seed = 0;
   double clamp = 0;
   std::string device = "CPU";
-  bool glowing = false;  // receivers on lamps: the light of their own materials is left to chance (docs/bake.md)
+  bool glowing =
+      false;  // receivers on lamps: the light of their own materials is left to chance (docs/bake.md)
   bool operator==(const CyclesSettings&) const = default;
 };
 

@@ -10,10 +10,10 @@
 // degrees off the face instead: cheap, and wrong there.
 #pragma once
 
-#include "scene/surface.h"
 #include "base/math.h"
 #include "basis/basis_set.h"
 #include "config/bake_settings.h"
+#include "scene/surface.h"
 
 #include <cstddef>
 #include <string>

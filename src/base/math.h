@@ -14,7 +14,8 @@ using Vec3d = Imath::V3d;
 /// Row-vector convention: p' = p * M, the transpose of how Blender writes a matrix.
 using Mat44 = Imath::M44d;
 
-/// `v` at length 1; `v` must not be 0. Faster than Imath's, which guards against lengths near the limits of floats.
+/// `v` at length 1; `v` must not be 0. Faster than Imath's, which guards against lengths near the limits of
+/// floats.
 [[nodiscard]] inline Vec3 unit(const Vec3& v) {
   return v * (1 / std::sqrt(v.dot(v)));
 }

@@ -20,7 +20,7 @@ struct SurfaceCorner {
 /// One triangle; its corners run anti-clockwise seen from where `normal` points.
 struct SurfaceTriangle {
   std::array<SurfaceCorner, 3> corners;
-  Vec3 normal;  // geometric, world space, unit; on the side that Cycles calls the front
+  Vec3 normal;               // geometric, world space, unit; on the side that Cycles calls the front
   std::uint32_t source = 0;  // number of the mesh's triangle
 };
 

@@ -8,8 +8,8 @@
 namespace rnmbake {
 namespace {
 
-// In steradians. Below the first, sampling by area is as good and much cheaper; above the second, the angles of a
-// spherical triangle are not told apart well enough in floats.
+// In steradians. Below the first, sampling by area is as good and much cheaper; above the second, the angles
+// of a spherical triangle are not told apart well enough in floats.
 constexpr float smallest = 0.1F, largest = 6.2F;
 
 /// The triangle on the unit sphere around a point.

@@ -3,9 +3,9 @@
 
 #include "bake/plan.h"
 #include "bake/receiver.h"
-#include "scene/surface.h"
 #include "bake/targets.h"
 #include "base/error.h"
+#include "scene/surface.h"
 #include "scene/survey.h"
 
 #include <array>

@@ -16,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-/// E/pi on a plane that nothing shades: the mean over an even grid of samples, whose error is far below a bake's.
+/// E/pi on a plane that nothing shades: the mean over an even grid of samples, whose error is far below a
+/// bake's.
 Vec3d lit(const Lights& lights, const Vec3& point, const Vec3& normal) {
   constexpr int grid = 160;
   Vec3d sum(0, 0, 0);
