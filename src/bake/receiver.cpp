@@ -159,7 +159,7 @@ FaceAxes face_axes(const Vec3& normal) {
 }
 
 Vec3 basis_normal(const Frame& frame, const Vec3& basis) {
-  return (frame.tangent * basis.x + frame.bitangent * basis.y + frame.normal * basis.z).normalized();
+  return frame.to_world(basis).normalized();
 }
 
 Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {

@@ -105,10 +105,7 @@ Vec3 RenderSurfaces::to_world(const Vertex& vertex, const Vec3& normal) const {
   if (!frames) return vertex.normal;
   const auto weight = weights(vertex);
   Vec3 sum(0);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Frame& frame = frames->corners[corner(vertex, k)];
-    sum += (frame.tangent * normal.x + frame.bitangent * normal.y + frame.normal * normal.z) * weight[k];
-  }
+  for (std::size_t k = 0; k < 3; ++k) sum += frames->corners[corner(vertex, k)].to_world(normal) * weight[k];
   const float length = sum.length();
   if (!(length > 0)) return vertex.normal;
   return sum / (vertex.back ? -length : length);

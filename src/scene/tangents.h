@@ -14,6 +14,11 @@ namespace rnmbake {
 struct Frame {
   Vec3 tangent, bitangent, normal;
   float sign = 1;
+
+  [[nodiscard]] Vec3 to_world(const Vec3& v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+  [[nodiscard]] Vec3 to_tangent(const Vec3& v) const {
+    return {v.dot(tangent), v.dot(bitangent), v.dot(normal)};
+  }
 };
 
 struct TangentFrames {

@@ -6,22 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace rnmbake {
-namespace {
-
-constexpr float inv_pi = static_cast<float>(1 / pi);
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// Rays start this much further off than the surface is lifted: a place is mixed from corners, and rounded.
-constexpr float relative_gap = 1e-6F;
-
-float largest_coordinate(const Vec3& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-}  // namespace
+namespace {}  // namespace
 
 BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
                              const OwnSurface* own)
@@ -39,7 +26,6 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
       back_faces_(texels) {
   if (!options.faults.any()) return;
   recipe_.emplace(options.faults, options.blender_version);
-  own_ = own;
   if (!options.faults.self_reflection) return;
   path_.own = own;
   path_.recipe = &*recipe_;
@@ -55,10 +41,6 @@ void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::ui
       Sampler sampler(hash_of(seed, 2 * i), static_cast<std::uint32_t>(s));
       set_out(i, block[i], sampler);
       look_around(i);
-      if (is_black(block[i])) {
-        found_[i].radiance = Vec3(0);
-        continue;
-      }
       shoot(i, sampler);
       if (lamps) sample_lamps(i, block[i], hash_of(seed, 2 * i + 1), s);
     }
@@ -74,18 +56,17 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   const Place place = sites_.place(texel, sampler.next2());
   Here& here = here_[i];
   here.face = place.face;
-  here.gap = relative_gap * largest_coordinate(place.position);
+  here.gap = rounding_gap(place.position);
   here.position = place.position + place.face * here.gap;
   if (framed_) {
-    here.normal = place.normal.normalized();
-    here.tangent = (place.tangent - here.normal * place.tangent.dot(here.normal)).normalized();
-    here.bitangent = here.normal.cross(here.tangent) * place.sign;
+    const Vec3 normal = place.frame.normal.normalized(), along = place.frame.tangent;
+    const Vec3 tangent = (along - normal * along.dot(normal)).normalized();
+    here.frame = {tangent, normal.cross(tangent) * place.frame.sign, normal, place.frame.sign};
   }
   Vec3* normals = &normals_[i * directions_];
   for (std::size_t k = 0; k < directions_; ++k) {
-    const Vec3& b = options_.directions[k].direction;
-    normals[k] = unit(place.tangent * b.x + place.bitangent * b.y + place.normal * b.z);
-    if (recipe_) normals[k] = recipe_->closure(normals[k], here.normal, here.face, here.face).normal;
+    normals[k] = unit(place.frame.to_world(options_.directions[k].direction));
+    if (recipe_) normals[k] = recipe_->closure(normals[k], here.frame.normal, here.face, here.face).normal;
   }
 }
 
@@ -98,10 +79,8 @@ void BlockGatherer::look_around(std::size_t i) {
   if (few) {
     for (std::size_t k = 0; k < directions_; ++k) lobes.add(normals[k]);
   } else {
-    lobes.add(here.normal);
-    for (const Vec3& b : rnm_basis()) {
-      lobes.add((here.tangent * b.x + here.bitangent * b.y + here.normal * b.z).normalized());
-    }
+    lobes.add(here.frame.normal);
+    for (const Vec3& b : rnm_basis()) lobes.add(unit(here.frame.to_world(b)));
   }
   lobes_[i] = lobes;
 }
@@ -112,13 +91,12 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
   const Vec3* normals = &normals_[i * directions_];
   const Vec3 over_pi = light * inv_pi;
   for (std::size_t k = 0; k < directions_; ++k) {
-    const float cosine = recipe_ ? recipe_->cosine({normals[k], here.normal, true}, direction)
+    const float cosine = recipe_ ? recipe_->cosine({normals[k], here.frame.normal, true}, direction)
                                  : std::max(0.0F, direction.dot(normals[k]));
     here.sums[k] += over_pi * cosine;
   }
   if (coefficients_ == 0) return;
-  const auto y =
-      sh_basis({direction.dot(here.tangent), direction.dot(here.bitangent), direction.dot(here.normal)});
+  const auto y = sh_basis(here.frame.to_tangent(direction));
   for (std::size_t c = 0; c < coefficients_; ++c) here.sums[directions_ + c] += light * y[c];
 }
 
@@ -173,7 +151,7 @@ void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
     const float other = normal.dot(light.direction) * inv_pi;
     if (!(other > 0)) continue;
     const float share = light.chance_hits ? power(light.pdf, other) : 1;
-    const float cosine = recipe_->cosine({normal, here.normal, true}, light.direction);
+    const float cosine = recipe_->cosine({normal, here.frame.normal, true}, light.direction);
     here.sums[k] += light.radiance * (cosine * inv_pi * share / (light.pdf * lamp_samples));
   }
 }
@@ -187,17 +165,15 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
   const Vec3 direction = lobes_[i].sample(choice, sampler.next2());
   const float pdf = lobes_[i].pdf(direction);
   if (!(pdf > 0)) return;
-  const auto chance_share = [&](float light_pdf) {
-    return !options_.chance_hits     ? 0.0F
-           : options_.light_sampling ? balance(pdf, light_pdf * lamp_samples)
-                                     : 1.0F;
+  const auto by_chance = [&](float light_pdf) {
+    return chance_share(options_.light_sampling, options_.chance_hits, pdf, light_pdf * lamp_samples);
   };
   const Ray ray{here.position, direction, infinity};
   Hit hit;
   ++rays_;
   if (!scene_.intersect(ray, hit)) {
     const float other = scene_.lights().world_pdf(here.position, horizon(i), direction);
-    add(i, direction, scene_.lights().world(direction) * (chance_share(other) / pdf));
+    add(i, direction, scene_.lights().world(direction) * (by_chance(other) / pdf));
     return;
   }
   const Vertex vertex = vertex_at(scene_, ray, hit);
@@ -205,7 +181,7 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
   if (scene_.looks().emits(vertex.look)) {
     const float other =
         scene_.lights().triangle_pdf(here.position, horizon(i), hit.triangle, direction, hit.distance);
-    add(i, direction, scene_.looks().emission(vertex.look, vertex.uv) * (chance_share(other) / pdf));
+    add(i, direction, scene_.looks().emission(vertex.look, vertex.uv) * (by_chance(other) / pdf));
   }
   const Vec3 radiance = reflected_radiance(scene_, vertex, path_, sampler, rays_);
   if (radiance == Vec3(0)) return;

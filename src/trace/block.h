@@ -29,7 +29,7 @@ class BlockGatherer {
   static constexpr std::size_t lamp_samples =
       8;  // for each path: they cost little, and most of the noise is theirs
 
-  /// `own`: where the recipe's faults are to be made; null: nowhere.
+  /// `own`: where self-reflection is to be made; null: nowhere.
   BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
                 const OwnSurface* own);
 
@@ -47,9 +47,9 @@ class BlockGatherer {
   /// What one texel has in one round.
   struct Here {
     Vec3 position, face;
-    Vec3 tangent, bitangent, normal;  // orthonormal; `normal` is the shading normal
-    float gap = 0;                    // how far it is off the surface
-    Vec3* sums = nullptr;             // of this texel in the tally
+    Frame frame;           // orthonormal; its normal is the shading normal
+    float gap = 0;         // how far it is off the surface
+    Vec3* sums = nullptr;  // of this texel in the tally
   };
   struct Found {
     Vec3 position, face, target;  // target: where rays to it end, just off the surface
@@ -66,10 +66,6 @@ class BlockGatherer {
 
   /// Few enough for a lobe each.
   [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
-  /// Of a surface without a diffuse closure the recipe bakes nothing.
-  [[nodiscard]] bool is_black(const TexelSite& texel) const {
-    return recipe_ && recipe_->faults().no_diffuse && own_->is_black(texel.triangle);
-  }
   /// From where light counts: over the face, or (zero) from everywhere.
   [[nodiscard]] Vec3 horizon(std::size_t i) const {
     return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : here_[i].face;
@@ -79,7 +75,6 @@ class BlockGatherer {
   const Sites& sites_;
   const GatherOptions& options_;
   std::optional<Recipe> recipe_;
-  const OwnSurface* own_ = nullptr;  // where the recipe has faults
   PathOptions path_;
   std::size_t directions_, coefficients_;
   bool framed_;             // whether `Here` needs its frame

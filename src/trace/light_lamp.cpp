@@ -1,6 +1,6 @@
 #include "trace/light_lamp.h"
 
-#include "trace/light_directions.h"
+#include "trace/directions.h"
 #include "trace/light_rectangle.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ LightSample sample_disk(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   const float height = ratio * ratio / (slant * (slant + 1));  // 1 - cosine, without cancellation
   const Vec3 local = cone_direction(height, u);
   LightSample sample;
-  sample.direction = Frame(centre.direction).to_world(local);
+  sample.direction = Axes(centre.direction).to_world(local);
   sample.distance = centre.distance / std::max(local.z, 1e-6F);
   sample.radiance = lamp.radiance * spot_share(lamp.spot, -sample.direction);
   sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : cone_density(height);
@@ -65,7 +65,7 @@ LightSample sample_sphere(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   } else {
     const float sine = lamp.radius / centre.distance;
     height = sine * sine / (1 + std::sqrt(1 - sine * sine));
-    sample.direction = Frame(centre.direction).to_world(cone_direction(height, u));
+    sample.direction = Axes(centre.direction).to_world(cone_direction(height, u));
   }
   sample.distance = sphere_distance(way, sample.direction, lamp.radius, inside);
   sample.radiance = lamp.radiance * (inside ? 1.0F : spot_share(lamp.spot, -sample.direction));
@@ -82,7 +82,7 @@ LightSample sample_sun(const Lamp& lamp, const Vec2& u) {
     sample.direction = -lamp.axis;
     return sample;
   }
-  const Frame frame(-lamp.axis);
+  const Axes frame(-lamp.axis);
   if (lamp.flat_sun) {
     const Vec2 place = disk_place(u) * lamp.radius;
     const float slant = std::sqrt(1 + place.length2());

@@ -1,6 +1,6 @@
 #include "trace/light_units.h"
 
-#include "trace/light_directions.h"
+#include "trace/directions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "trace/lights.h"
 
+#include "trace/directions.h"
 #include "trace/light_bounds.h"
-#include "trace/light_directions.h"
 #include "trace/light_glow.h"
 #include "trace/light_lamp.h"
 #include "trace/light_tree.h"

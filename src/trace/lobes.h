@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "trace/directions.h"
 
 #include <algorithm>
 #include <array>
@@ -10,20 +11,11 @@
 
 namespace rnmbake {
 
-/// Two unit vectors that make a right-handed frame with `n`. Duff et al., "Building an Orthonormal Basis,
-/// Revisited" (JCGT 2017).
-inline void make_axes(const Vec3& n, Vec3& x, Vec3& y) {
-  const float sign = std::copysign(1.0F, n.z), a = -1.0F / (sign + n.z), b = n.x * n.y * a;
-  x = Vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
-  y = Vec3(b, sign + n.y * n.y * a, -n.y);
-}
-
 /// Around `n` with pdf cos/pi (Malley's method).
 [[nodiscard]] inline Vec3 cosine_direction(const Vec3& n, const Vec2& u) {
   const float r = std::sqrt(u.x), phi = static_cast<float>(2 * pi) * u.y;
-  Vec3 x, y;
-  make_axes(n, x, y);
-  return unit(x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + n * std::sqrt(std::max(0.0F, 1 - u.x)));
+  const Vec3 local(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0F, 1 - u.x)));
+  return unit(Axes(n).to_world(local));
 }
 
 /// An equal mixture of cosine lobes, the part under the face mirrored up; with `uniform` one lobe more that
@@ -63,9 +55,7 @@ class Lobes {
   [[nodiscard]] std::size_t all() const { return count_ + (uniform_ ? 1 : 0); }
   [[nodiscard]] Vec3 uniform_direction(const Vec2& u) const {
     const float z = u.x, r = std::sqrt(std::max(0.0F, 1 - z * z)), phi = static_cast<float>(2 * pi) * u.y;
-    Vec3 x, y;
-    make_axes(face_, x, y);
-    return x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + face_ * z;
+    return Axes(face_).to_world({r * std::cos(phi), r * std::sin(phi), z});
   }
 
   Vec3 face_;

@@ -3,13 +3,10 @@
 #include "trace/lobes.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace rnmbake {
 namespace {
 
-constexpr float inv_pi = static_cast<float>(1 / pi);
-constexpr float infinity = std::numeric_limits<float>::infinity();
 // Bounces before Russian roulette. Where texels share what a path's end is worth, long paths are dear.
 constexpr int first_roulette = 1;
 
@@ -53,12 +50,6 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   return light.radiance * (cosine * inv_pi * share / light.pdf);
 }
 
-/// Weight of light that a ray with pdf cos/pi met by chance.
-float chance_share(const PathOptions& options, float pdf, float light_pdf) {
-  if (!options.chance_hits) return 0;
-  return options.light_sampling ? balance(pdf, light_pdf) : 1;
-}
-
 }  // namespace
 
 Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOptions& options, Sampler& sampler,
@@ -82,18 +73,21 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     if (!(direction.dot(vertex.face) > 0)) break;  // under the face
     const float pdf = direction.dot(normal) * inv_pi;
     if (reflector.recipe != nullptr) throughput *= reflector.cosine(direction) * inv_pi / pdf;
+    const auto by_chance = [&](float light_pdf) {
+      return chance_share(options.light_sampling, options.chance_hits, pdf, light_pdf);
+    };
     const Ray ray{vertex.start(), direction, infinity};
     Hit hit;
     ++rays;
     if (!scene.intersect(ray, hit)) {
       const float other = lights.world_pdf(ray.origin, normal, direction);
-      sum += throughput * lights.world(direction) * chance_share(options, pdf, other);
+      sum += throughput * lights.world(direction) * by_chance(other);
       break;
     }
     const Vertex next = vertex_at(scene, ray, hit);
     if (scene.looks().emits(next.look)) {
       const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
-      sum += throughput * scene.looks().emission(next.look, next.uv) * chance_share(options, pdf, other);
+      sum += throughput * scene.looks().emission(next.look, next.uv) * by_chance(other);
     }
     vertex = next;
   }

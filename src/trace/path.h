@@ -37,6 +37,13 @@ struct PathOptions {
   return pdf * pdf / (pdf * pdf + other * other);
 }
 
+/// Weight of light that a ray with density `pdf` met by chance and looking at lights would have found with
+/// `light_pdf`.
+[[nodiscard]] inline float chance_share(bool light_sampling, bool chance_hits, float pdf, float light_pdf) {
+  if (!chance_hits) return 0;
+  return light_sampling ? balance(pdf, light_pdf) : 1;
+}
+
 /// Unbiased estimate of the diffusely reflected radiance at `vertex` towards the side that it was met from:
 /// the same in all directions. Emission of the vertex itself is not in it. `bounces` counts `vertex` as the
 /// first. Adds the rays that were shot to `rays`.

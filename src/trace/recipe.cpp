@@ -96,8 +96,7 @@ Vec3 OwnSurface::direction(const Vertex& vertex, const Vec3& basis) const {
   const float weights[3] = {1 - vertex.b1 - vertex.b2, vertex.b1, vertex.b2};
   Vec3 sum(0);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Frame& frame = corners[k].frame;
-    sum += (frame.tangent * basis.x + frame.bitangent * basis.y + frame.normal * basis.z) * weights[k];
+    sum += corners[k].frame.to_world(basis) * weights[k];
   }
   return sum.normalized() * (vertex.back ? -1.0F : 1.0F);
 }

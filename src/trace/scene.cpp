@@ -83,19 +83,18 @@ RTCRay to_embree(const Ray& ray) {
   return out;
 }
 
+RTCRayHit ask_embree(const Ray& ray) {
+  RTCRayHit query;
+  query.ray = to_embree(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
 template <typename T>
 T mixed(const std::vector<T>& corners, const Hit& hit) {
   const T* c = &corners[3 * std::size_t(hit.triangle)];
   return c[0] * (1 - hit.b1 - hit.b2) + c[1] * hit.b1 + c[2] * hit.b2;
-}
-
-/// A point's rounding errors grow with the coordinates that it is mixed from.
-float gap_of(const Vec3* corners) {
-  float largest = 0;
-  for (int k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(corners[k][axis]));
-  }
-  return 1e-6F * largest;
 }
 
 }  // namespace
@@ -111,10 +110,7 @@ TraceScene::~TraceScene() = default;
 
 bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, false});
-  RTCRayHit query;
-  query.ray = to_embree(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit query = ask_embree(ray);
   embree_intersect(accelerator_->scene, query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.triangle = query.hit.primID;
@@ -163,10 +159,7 @@ double TraceScene::time_bare(const RayLog& log, int threads) const {
   const auto pass = [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, log.size(), 4096), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        RTCRayHit query;
-        query.ray = to_embree({log[i].origin, log[i].direction, log[i].to});
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit query = ask_embree({log[i].origin, log[i].direction, log[i].to});
         if (log[i].shadow) {
           embree_occluded(accelerator_->scene, query.ray);
         } else {
@@ -196,7 +189,8 @@ Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
   const Vec3 smooth = mixed(triangles.normal, hit);
   const float length = smooth.length();
   vertex.normal = length > 0 ? smooth / (vertex.back ? -length : length) : vertex.face;
-  vertex.gap = gap_of(&triangles.position[3 * std::size_t(hit.triangle)]);
+  const Vec3* corners = &triangles.position[3 * std::size_t(hit.triangle)];
+  vertex.gap = std::max({rounding_gap(corners[0]), rounding_gap(corners[1]), rounding_gap(corners[2])});
   vertex.towards = -ray.direction;
   vertex.b1 = hit.b1;
   vertex.b2 = hit.b2;

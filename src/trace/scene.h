@@ -8,6 +8,8 @@
 #include "trace/ray_log.h"
 #include "trace/triangles.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -65,6 +67,12 @@ class TraceScene {
   std::unique_ptr<Accelerator> accelerator_;
   RayLog* log_ = nullptr;
 };
+
+/// How far off a surface rays start: a point's rounding errors grow with the coordinates that it is mixed
+/// from.
+[[nodiscard]] inline float rounding_gap(const Vec3& p) {
+  return 1e-6F * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
 
 /// Where a ray met a surface; both normals point to the side that it came from.
 struct Vertex {

@@ -72,10 +72,10 @@ Place Sites::place(const TexelSite& texel, const Vec2& u) const {
   Place place;
   place.position = c0.position * b0 + c1.position * b1 + c2.position * b2;
   place.face = triangle.normal;
-  place.tangent = c0.frame.tangent * b0 + c1.frame.tangent * b1 + c2.frame.tangent * b2;
-  place.bitangent = c0.frame.bitangent * b0 + c1.frame.bitangent * b1 + c2.frame.bitangent * b2;
-  place.normal = c0.frame.normal * b0 + c1.frame.normal * b1 + c2.frame.normal * b2;
-  place.sign = c0.frame.sign;
+  const auto mixed = [&](Vec3 Frame::*axis) {
+    return c0.frame.*axis * b0 + c1.frame.*axis * b1 + c2.frame.*axis * b2;
+  };
+  place.frame = {mixed(&Frame::tangent), mixed(&Frame::bitangent), mixed(&Frame::normal), c0.frame.sign};
   return place;
 }
 

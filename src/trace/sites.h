@@ -20,10 +20,9 @@ struct TexelSite {
 /// A place within a texel's footprint, and the frame there.
 struct Place {
   Vec3 position;
-  Vec3 face;                        // geometric normal, unit
-  Vec3 tangent, bitangent, normal;  // interpolated, not normalised: a basis vector's world direction is their
-                                    // weighted sum, normalised, as a runtime shader has it
-  float sign = 1;                   // of the bitangent
+  Vec3 face;  // geometric normal, unit
+  Frame
+      frame;  // interpolated, not normalised: what it makes of a basis vector is, as a runtime shader has it
 };
 
 class Sites {

@@ -1,6 +1,6 @@
 #include "trace/world_light.h"
 
-#include "trace/light_directions.h"
+#include "trace/directions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +152,7 @@ LightSample WorldLight::sample_constant(const Vec3& normal, const Vec2& u, float
     sample.direction = cone_direction(2, u);
   } else {
     const Vec3 local = extra < 0.5F ? cosine_direction(u) : cone_direction(1, u);
-    sample.direction = Frame(normal).to_world(local);
+    sample.direction = Axes(normal).to_world(local);
   }
   sample.pdf = constant_pdf(normal, sample.direction);
   return sample;

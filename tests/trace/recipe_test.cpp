@@ -85,5 +85,50 @@ TEST(Recipe, WhatReflectsNothingBakesBlack) {
   EXPECT_EQ(gather_one(scene, 0, options, 4, 4).directions[0].mean[0], 0);
 }
 
+/// A floor, its left half black, under a ceiling that sends the sky's light down to it.
+Exchange half_black_floor() {
+  Exchange scene;
+  const auto half = [](float from, float to) {
+    return Quad{Vec3(from, -1, 0), Vec3(to, -1, 0), Vec3(to, 1, 0), Vec3(from, 1, 0)};
+  };
+  add_object(scene, "floor", {half(-1, 0), half(0, 1)}, Vec3(0));
+  add_object(scene, "ceiling", {level(1, 1, false)}, Vec3(0.8F));
+  scene.world.radiance = Vec3(1);
+  Look white = scene.looks[0];
+  white.albedo = Vec3(0.5F);
+  scene.object_looks[0].push_back(static_cast<int>(scene.looks.size()));
+  scene.looks.push_back(white);
+  scene.survey.objects[0].slots.emplace_back("white");
+  scene.survey.meshes[0].polygon_slot[1] = 1;
+  return scene;
+}
+
+TEST(Recipe, BlackTexelsTakeNothingFromTheirNeighbours) {
+  const Exchange scene = half_black_floor();
+  constexpr int width = 8, height = 4;  // one block of texels
+  GatherOptions options = recipe_options("4.3.2", 1 << 12);
+  options.faults = {};
+  const Gathered all = gather_one(scene, 0, options, width, height);
+  options.faults.no_diffuse = true;
+  options.seed = 1;
+  const Gathered some = gather_one(scene, 0, options, width, height);
+  double difference = 0, square = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      EXPECT_EQ(some.coverage.texel(x, y)[0], 1);
+      if (x < width / 2) {
+        EXPECT_EQ(some.directions[0].radiance.texel(x, y)[0], 0);
+        EXPECT_EQ(some.validity.texel(x, y)[0], 1);
+        continue;
+      }
+      difference += some.directions[0].radiance.texel(x, y)[0] - all.directions[0].radiance.texel(x, y)[0];
+      for (const Gathered* one : {&some, &all})
+        square += std::pow(one->directions[0].standard_error.texel(x, y)[0], 2);
+    }
+  }
+  EXPECT_LT(std::abs(difference), 4 * std::sqrt(square));
+  EXPECT_LT(std::sqrt(square), 0.003 * width / 2 * height);
+}
+
 }  // namespace
 }  // namespace rnmbake

@@ -41,10 +41,7 @@ struct Face {
     const double w1 = (p.x * e2.y - p.y * e2.x) / area, w2 = (e1.x * p.y - e1.y * p.x) / area;
     const std::array<double, 3> weights{1 - w1 - w2, w1, w2};
     Vec3d sum(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Frame& f = frames[k];
-      sum += Vec3d(f.tangent * basis.x + f.bitangent * basis.y + f.normal * basis.z) * weights[k];
-    }
+    for (std::size_t k = 0; k < 3; ++k) sum += Vec3d(frames[k].to_world(basis)) * weights[k];
     return sum.normalized();
   }
 };
