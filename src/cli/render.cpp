@@ -179,8 +179,10 @@ std::function<int()> add_render_command(CLI::App& app) {
   auto flags = std::make_shared<RenderFlags>(*command);
   return [flags] {
     flags->check();
+    const auto config = flags->settings.resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
     StopRequest::install();
-    return render(flags->resolve(), *flags);
+    return render(*config, *flags);
   };
 }
 

@@ -2,8 +2,6 @@
 
 #include "base/error.h"
 #include "cli/command_line.h"
-#include "config/document.h"
-#include "config/value.h"
 
 #include <algorithm>
 #include <array>
@@ -44,13 +42,7 @@ bool is_png(const std::filesystem::path& file) {
   return ending_of(file) == ".png";
 }
 
-RenderFlags::RenderFlags(CLI::App& command) {
-  scene_ = command.add_option("SCENE", "scene (.blend, .glb, .gltf, .rnmscene) or project file (.toml)");
-  add_pictures(command);
-  add_settings(command);
-}
-
-void RenderFlags::add_pictures(CLI::App& command) {
+RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::reference, view_settings) {
   command
       .add_option("--lightmaps", lightmaps,
                   "output folder of rnmbake bake or rnmbake reference, or one lightmap (.exr)")
@@ -87,19 +79,6 @@ void RenderFlags::add_pictures(CLI::App& command) {
   command.add_option("--exposure", exposure, "of a .png: multiply by 2^STOPS [0]")->type_name("STOPS");
 }
 
-void RenderFlags::add_settings(CLI::App& command) {
-  for (const char* key : view_settings) {
-    const Setting* setting = find_setting(key);
-    const bool is_switch = setting->kind == SettingKind::boolean;
-    const std::string help = help_text(*setting);
-    CLI::Option* option = is_switch ? command.add_flag(setting->flag_names(), help)
-                                    : command.add_option(setting->flag_names(), help);
-    if (!is_switch) option->type_name("VALUE");
-    option->group("Settings")->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    settings_.emplace_back(setting, option);
-  }
-}
-
 void RenderFlags::check() {
   if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o FILE.exr or FILE.png");
   if (!resolution.empty() && !size()) {
@@ -120,28 +99,6 @@ void RenderFlags::check() {
          "{} needs --lightmaps DIR; without lightmaps there are --decode truth and --with cycles",
          compare ? "--compare" : "--decode " + decode);
   }
-}
-
-ResolvedConfig RenderFlags::resolve() const {
-  std::vector<Given> flags;
-  for (const auto& [setting, option] : settings_) {
-    if (option->count() == 0) continue;
-    const std::string where = "flag " + setting->flag();
-    flags.push_back(
-        {setting, parse_value(*setting, option->results().back(), where), SettingSource::flag, where});
-  }
-  ProjectFile project;
-  if (scene_->count() > 0) {
-    const std::string scene = scene_->results().back();
-    if (is_project_path(scene)) {
-      project = read_project(scene);
-    } else {
-      flags.push_back({find_setting("file"), scene, SettingSource::flag, "argument SCENE"});
-    }
-  }
-  ResolvedConfig config = rnmbake::resolve(project, read_environment(process_environment()), flags);
-  require_scene(config, Purpose::reference);
-  return config;
 }
 
 std::optional<std::pair<int, int>> RenderFlags::size() const {

@@ -63,25 +63,27 @@ std::string joined(const std::vector<std::string>& parts) {
 
 }  // namespace
 
-SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose) : purpose_(purpose) {
-  command.footer(fmt::format(epilogue, command.get_name()));
+SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose, std::span<const char* const> only)
+    : purpose_(purpose) {
+  if (only.empty()) command.footer(fmt::format(epilogue, command.get_name()));
   const std::string help = fmt::format("scene (.blend, .glb, .gltf{}) or project file (.toml)",
                                        purpose == Purpose::reference ? ", .rnmscene" : "");
   scene_ = command.add_option("SCENE", help);
   for (const Setting& setting : settings()) {
-    if (setting.serves(purpose)) add(command, setting);
+    if (only.empty() && setting.serves(purpose)) add(command, setting, group_of(setting));
   }
+  for (const char* key : only) add(command, *find_setting(key), "Settings");
   print_config_ = command.add_flag("--print-config");
   print_config_->description("show every setting with where its value comes from, and end");
   print_reference_ = command.add_flag("--print-settings-doc")->group("");  // for docs/project-file.md
 }
 
-void SettingsFlags::add(CLI::App& command, const Setting& setting) {
+void SettingsFlags::add(CLI::App& command, const Setting& setting, const std::string& group) {
   const std::string help = help_text(setting);
   CLI::Option* option = setting.kind == SettingKind::boolean ? command.add_flag(setting.flag_names(), help)
                                                              : command.add_option(setting.flag_names(), help);
   const bool is_list = setting.kind == SettingKind::text_list;
-  option->type_name(value_name(setting.kind))->group(group_of(setting));
+  option->type_name(value_name(setting.kind))->group(group);
   option->multi_option_policy(is_list ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);
   options_.emplace_back(&setting, option);
 }

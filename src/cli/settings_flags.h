@@ -5,6 +5,8 @@
 
 #include <iosfwd>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,10 +18,11 @@ class Option;
 namespace rnmbake {
 
 /// Adds the argument SCENE, a flag for each setting of that purpose (grouped by table) and --print-config.
-/// Must live as long as `command`.
+/// With `only`, keys of settings, just those have flags, in one group. Must live as long as `command`.
 class SettingsFlags {
  public:
-  explicit SettingsFlags(CLI::App& command, Purpose purpose = Purpose::bake);
+  explicit SettingsFlags(CLI::App& command, Purpose purpose = Purpose::bake,
+                         std::span<const char* const> only = {});
   SettingsFlags(const SettingsFlags&) = delete;
   SettingsFlags& operator=(const SettingsFlags&) = delete;
 
@@ -30,7 +33,7 @@ class SettingsFlags {
   [[nodiscard]] std::optional<ResolvedConfig> resolve() const;  // on stdout
 
  private:
-  void add(CLI::App& command, const Setting& setting);
+  void add(CLI::App& command, const Setting& setting, const std::string& group);
   [[nodiscard]] std::vector<Given> given_flags() const;
 
   Purpose purpose_;

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <spdlog/fmt/ranges.h>
+
 namespace rnmbake {
 namespace {
 
@@ -15,29 +17,24 @@ constexpr BlenderVersion first_without_tilt_clamp{3, 6, 0};  // from there on on
 constexpr BlenderVersion first_with_full_footprint{5, 0, 0};
 constexpr int enough_samples = 1 << 20;  // where only --error says when to stop
 
-struct NamedFault {
-  const char* name;
-  bool RecipeFaults::*on;
-};
-constexpr std::array<NamedFault, 5> known_faults{{{"tilt-clamp", &RecipeFaults::tilt_clamp},
-                                                  {"bump-shadowing", &RecipeFaults::bump_shadowing},
-                                                  {"self-reflection", &RecipeFaults::self_reflection},
-                                                  {"below-horizon", &RecipeFaults::below_horizon},
-                                                  {"no-diffuse", &RecipeFaults::no_diffuse}}};
+constexpr std::array<NamedFault, 5> known_faults{
+    {{"tilt-clamp", "tilt clamp", &RecipeFaults::tilt_clamp},
+     {"bump-shadowing", "bump shadowing", &RecipeFaults::bump_shadowing},
+     {"self-reflection", "self-reflection", &RecipeFaults::self_reflection},
+     {"below-horizon", "light from below", &RecipeFaults::below_horizon},
+     {"no-diffuse", "no diffuse reflection", &RecipeFaults::no_diffuse}}};
 
 RecipeFaults faults_named(const std::vector<std::string>& names, const std::string& where) {
   RecipeFaults faults;
   for (const std::string& name : names) {
-    const auto found = std::ranges::find(known_faults, name, &NamedFault::name);
+    const auto found = std::ranges::find(known_faults, name, &NamedFault::flag);
     if (found != known_faults.end()) {
       faults.*found->on = true;
     } else if (name != "none" || names.size() > 1) {
-      std::vector<std::string> words{"none"};
-      for (const NamedFault& fault : known_faults) words.emplace_back(fault.name);
-      fail(ExitCode::usage,
-           "{}: '{}' is no fault of the recipe; give tilt-clamp, bump-shadowing, self-reflection, "
-           "below-horizon, no-diffuse, or none alone{}",
-           where, name, did_you_mean(name, words));
+      std::vector<std::string> flags;
+      for (const NamedFault& fault : known_faults) flags.emplace_back(fault.flag);
+      fail(ExitCode::usage, "{}: '{}' is no fault of the recipe; give {}, or none alone{}", where, name,
+           fmt::join(flags, ", "), did_you_mean(name, flags));
     }
   }
   return faults;
@@ -94,13 +91,20 @@ BlenderVersion blender_version_of(const std::string& text, const std::string& wh
 }
 
 RecipeFaults faults_of(const BlenderVersion& version) {
-  return {version < first_without_tilt_clamp, true, true, true, true};
+  RecipeFaults faults;
+  for (const NamedFault& fault : known_faults) faults.*fault.on = true;
+  faults.tilt_clamp = version < first_without_tilt_clamp;
+  return faults;
+}
+
+std::span<const NamedFault> all_faults() {
+  return known_faults;
 }
 
 std::vector<std::string> names_of(const RecipeFaults& faults) {
   std::vector<std::string> names;
   for (const NamedFault& fault : known_faults) {
-    if (faults.*fault.on) names.emplace_back(fault.name);
+    if (faults.*fault.on) names.emplace_back(fault.flag);
   }
   return names;
 }

@@ -5,6 +5,7 @@
 #include "config/resolve.h"
 #include "trace/gather.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,14 @@ struct ReferencePlan {
 
 /// The errors that the published recipe has in that Blender.
 [[nodiscard]] RecipeFaults faults_of(const BlenderVersion& version);
+
+struct NamedFault {
+  const char* flag;   // "tilt-clamp"
+  const char* words;  // "tilt clamp"
+  bool RecipeFaults::*on;
+};
+/// Every fault, in the order in which validate adds one to those before it.
+[[nodiscard]] std::span<const NamedFault> all_faults();
 
 /// "tilt-clamp", "bump-shadowing", ...: those that are on.
 [[nodiscard]] std::vector<std::string> names_of(const RecipeFaults& faults);

@@ -12,7 +12,6 @@
 #include "pipeline/variants.h"
 
 #include <algorithm>
-#include <array>
 
 namespace rnmbake {
 namespace {
@@ -25,18 +24,11 @@ constexpr double receiver_weight = 1, recipe_weight = 1.5, trace_weight = 0.7;
 constexpr double view_weight = 3;
 constexpr double study_weight = 2 * recipe_weight + trace_weight;
 
-/// A fault that is added to those before it.
-struct Fault {
-  const char* name;
-  const char* folder;
-  bool RecipeFaults::*on;
+/// The truth with the recipe's faults up to one of them.
+struct Emulation {
+  const char* fault;
+  TraceVariant variant;
 };
-constexpr std::array<Fault, 5> all_faults{
-    {{"tilt clamp", "1-tilt-clamp", &RecipeFaults::tilt_clamp},
-     {"bump shadowing", "2-bump-shadowing", &RecipeFaults::bump_shadowing},
-     {"self-reflection", "3-self-reflection", &RecipeFaults::self_reflection},
-     {"light from below", "4-below-horizon", &RecipeFaults::below_horizon},
-     {"no diffuse reflection", "5-no-diffuse", &RecipeFaults::no_diffuse}}};
 
 class ValidateRun {
  public:
@@ -57,8 +49,8 @@ class ValidateRun {
     Steps steps(step_count(), whole_weight());
     for (const BakeVariant& variant : bakes()) bake(variant, steps);
     trace(truth(), "tracing the truth", steps);
-    for (const TraceVariant& emulation : emulations())
-      trace(emulation, "tracing the recipe's faults up to " + emulation.folder.filename().string(), steps);
+    for (const auto& [fault, variant] : emulations())
+      trace(variant, fmt::format("tracing the recipe's faults up to {}", fault), steps);
     SplitStudy study;
     for (const Splitting& splitting : study_) {
       steps.begin(fmt::format("study: {}, {} targets", splitting.name, splitting.list.targets.size()),
@@ -121,16 +113,18 @@ class ValidateRun {
   [[nodiscard]] TraceVariant truth() const { return {plan_, "reference", 8, "tracing"}; }
 
   /// The faults that this Blender has, one more each time.
-  [[nodiscard]] std::vector<TraceVariant> emulations() const {
-    std::vector<TraceVariant> list;
+  [[nodiscard]] std::vector<Emulation> emulations() const {
+    std::vector<Emulation> list;
     TraceVariant variant = truth();
     variant.plan.flat_normal_map = true;
-    for (const Fault& fault : all_faults) {
+    int number = 0;
+    for (const NamedFault& fault : all_faults()) {
+      ++number;
       if (!(faults_.*fault.on)) continue;
       variant.plan.faults.*fault.on = true;
-      variant.folder = std::filesystem::path("emulation") / fault.folder;
+      variant.folder = std::filesystem::path("emulation") / fmt::format("{}-{}", number, fault.flag);
       ++variant.seed;
-      list.push_back(variant);
+      list.push_back({fault.words, variant});
     }
     return list;
   }
@@ -184,13 +178,8 @@ class ValidateRun {
   [[nodiscard]] DecomposeInput decompose_input() const {
     DecomposeInput input;
     input.truth = dir_ / truth().folder;
-    std::vector<const char*> names;
-    for (const Fault& fault : all_faults) {
-      if (faults_.*fault.on) names.push_back(fault.name);
-    }
-    const std::vector<TraceVariant> traced = emulations();
-    for (std::size_t i = 0; i < traced.size(); ++i)
-      input.emulated.push_back({names[i], dir_ / traced[i].folder});
+    for (const auto& [fault, variant] : emulations())
+      input.emulated.push_back({fault, dir_ / variant.folder});
     input.recipe = halves(Recipe::flat_normal_map, Materials::lambert);
     input.receiver = halves(Recipe::receiver, Materials::lambert);
     if (own_) {
