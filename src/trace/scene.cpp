@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "trace/embree.h"
+#include "rays/embree.h"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@ import sys
 
 FLOORS = {
     "base": 0,
-    "basis": 1, "image": 1, "scene": 1, "config": 1, "process": 1,
+    "basis": 1, "image": 1, "scene": 1, "config": 1, "process": 1, "rays": 1,
     "blender": 2, "bake": 2, "lightmap": 2, "trace": 2, "ssbump": 2, "jobs": 2, "report": 2,
     "pipeline": 3,
     "cli": 4,
@@ -21,7 +21,7 @@ OWNED = {
     "OpenEXR/": {"image"},
     "toml++/": {"config", "cli"},
     "CLI/": {"cli"},
-    "embree": {"trace"},
+    "embree": {"rays"},
     "tbb/": {"trace", "ssbump"},
     "xxhash.h": {"base"},
     "zlib.h": {"report"},

@@ -1,4 +1,4 @@
-// trace/embree.h - the little that differs between Embree 3 and 4. Private to the trace room.
+// rays/embree.h - the little that differs between Embree 3 and 4.
 #pragma once
 
 #if RNMBAKE_EMBREE_MAJOR >= 4

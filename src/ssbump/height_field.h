@@ -1,0 +1,25 @@
+// ssbump/height_field.h - a height map as the surface that light falls on.
+#pragma once
+
+#include "image/float_image.h"
+
+#include <cstdint>
+
+namespace rnmbake {
+
+/// What lies beyond a border, for each axis: the map again, the map mirrored, or nothing that casts a shadow
+/// (the border's height goes on).
+enum class Beyond : std::uint8_t { wrap, mirror, none };
+
+/// Heights in texels (the distance of two neighbours is 1), one channel, row 0 on top. The surface is made of
+/// bilinear patches between texel centres. Tangent space is right-handed: +x to the right, +y UP the picture
+/// (towards row 0), +z out of it.
+struct HeightField {
+  FloatImage heights;
+  Beyond x = Beyond::wrap, y = Beyond::wrap;
+
+  [[nodiscard]] int width() const { return heights.width(); }
+  [[nodiscard]] int height() const { return heights.height(); }
+};
+
+}  // namespace rnmbake
