@@ -3,6 +3,8 @@ import bpy
 
 from core.task import ENVIRONMENT, Refusal
 
+LAYERS = 128  # see-through surfaces that a ray may cross; beyond Cycles takes them for opaque
+
 
 def _set(owner, name, value):
     """Set a property that not every Blender has; say whether it exists."""
@@ -27,6 +29,7 @@ def apply_settings(scene, settings):
 
 def _set_bounces(cycles, bounces):
     cycles.max_bounces = bounces
+    cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, LAYERS)
     for lobe in ("diffuse", "glossy", "transmission"):
         setattr(cycles, lobe + "_bounces", bounces)
 

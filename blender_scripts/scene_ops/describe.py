@@ -1,5 +1,6 @@
 """What materials, lights and worlds are made of, and what in them a diffuse + emission tracer cannot follow."""
 from scene_ops.describe_nodes import active_output, constant, is_zero, reachable_nodes, tree_source
+from scene_ops.see_through import casts_opaque_shadow, lets_light_through
 
 # Closures by node type. Diffuse, Principled and Emission are looked at more closely.
 CLOSURES = {
@@ -57,6 +58,10 @@ def describe_material(material):
         outside.update(outside_of(node))
         info["emissive"] |= emits(node)
         info["normal_mapped"] |= bends_normals(node)
+    if lets_light_through(material):
+        outside.discard("transparent")
+        if casts_opaque_shadow(material):
+            outside.add("opaque shadow")
     info["outside_model"] = sorted(outside)
     return info
 

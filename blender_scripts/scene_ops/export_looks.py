@@ -36,13 +36,16 @@ class Looks:
         shaders = {node.type: node for node in shaders_of(material)}
         albedo, albedo_image, place = read_color(shaders.get("BSDF_DIFFUSE"))
         emission, emission_image, other = read_color(shaders.get("EMISSION"))
-        place = place or other
+        through, through_image, behind = read_color(shaders.get("BSDF_TRANSPARENT"))
+        place = place or other or behind
         return {
             "material": material.get(LABEL_PROPERTY, material.name),
             "albedo": [min(max(value, 0.0), 1.0) for value in albedo],
             "emission": [max(value, 0.0) for value in emission],
+            "transmittance": [min(max(value, 0.0), 1.0) for value in through],
             "albedo_picture": self._picture(albedo_image),
             "emission_picture": self._picture(emission_image),
+            "transmittance_picture": self._picture(through_image),
             "picture_uv": self._uv(place, mesh, mesh_number) if place else -1,
             "normal_map": self._normal_map(material, mesh),
         }
@@ -89,11 +92,15 @@ class Looks:
 
 
 def shaders_of(material):
-    """The one or two that lambert_materials.make_lambert builds."""
-    source = active_output(material).inputs["Surface"].links[0].from_node
-    if source.type != "ADD_SHADER":
-        return [source]
-    return [socket.links[0].from_node for socket in source.inputs]
+    """The one to three that lambert_materials.make_lambert adds up."""
+    shaders, work = [], [active_output(material).inputs["Surface"]]
+    while work:
+        source = work.pop().links[0].from_node
+        if source.type == "ADD_SHADER":
+            work += source.inputs
+        else:
+            shaders.append(source)
+    return shaders
 
 
 def read_color(shader):

@@ -1,4 +1,4 @@
-"""Takes albedo and emission of every material from Cycles itself and puts plain materials in their place.
+"""Takes albedo, emission and transmittance of every material from Cycles itself, and puts plain materials in place.
 
 Uniform materials share one tiny bake, a square for each: that gives in every version exactly the colour of Cycles'
 diffuse pass, and no socket has to be understood here. The others are baked object by object.
@@ -13,7 +13,8 @@ from mathutils import Vector
 from core.task import Refusal
 from scene_ops import lambert_uv
 from scene_ops.lambert_bench import bench, new_image
-from scene_ops.lambert_materials import Source, picture, stand_in
+from scene_ops.lambert_materials import BLACK, Source, picture, stand_in
+from scene_ops.lambert_pixels import brightness, cut, keep_if_bright, left_beside, read_pixels
 
 CELL = 4  # texels across the square of a uniform material
 MARGIN = 8  # texels around charts: they also colour triangles that hold no texel's centre
@@ -60,7 +61,7 @@ def replace_materials(task, surfaces):
                 assign(group, {})
     warnings += opaque_warnings(groups)
     for source in sources.values():
-        bpy.data.materials.remove(source.bakeable)
+        source.remove_copies()
     return warnings
 
 
@@ -90,7 +91,7 @@ def used_slots(mesh, slots):
 
 
 def settle_uniform(stand, sources):
-    """Give each its plain material, from two bakes of one mesh."""
+    """Give each its plain material, from two or three bakes of one mesh."""
     if not sources:
         return []
     across = math.ceil(math.sqrt(len(sources)))
@@ -100,16 +101,28 @@ def settle_uniform(stand, sources):
         source.write_to(image)
         mesh.materials.append(source.bakeable)
     ob = bpy.data.objects.new("rnmbake squares", mesh)
+    transmittance = [BLACK] * len(sources)
     with stand.holding(ob):
         stand.bake(ob, "DIFFUSE", margin=0)
         albedo = centres(image, len(sources), across)
         stand.bake(ob, "EMIT", margin=0)
         emission = centres(image, len(sources), across)
-    for source, color, glow in zip(sources, albedo, emission):
-        source.plain = stand_in(source, tuple(min(value, 1.0) for value in color), glow)
+        if any(source.see_through for source in sources):
+            show_windows(mesh.materials, sources, image)
+            stand.bake(ob, "EMIT", margin=0)
+            transmittance = centres(image, len(sources), across)
+    for source, color, glow, through in zip(sources, albedo, emission, transmittance):
+        through = [left_beside(one, other) for one, other in zip(through, color)]
+        source.plain = stand_in(source, tuple(min(value, 1.0) for value in color), glow, through)
     bpy.data.meshes.remove(mesh)
     bpy.data.images.remove(image)
     return [above_one(source.name) for source, color in zip(sources, albedo) if max(color) > 1.0001]
+
+
+def show_windows(materials, sources, image):
+    for slot, source in enumerate(sources):
+        materials[slot] = source.window
+        source.write_to(image)
 
 
 def squares(count, across):
@@ -131,12 +144,6 @@ def centres(image, count, across):
     texels = [(number // across * CELL + CELL // 2) * across * CELL + number % across * CELL + CELL // 2
               for number in range(count)]
     return [tuple(pixels[4 * texel:4 * texel + 3]) for texel in texels]
-
-
-def read_pixels(image):
-    pixels = array("f", bytes(16 * image.size[0] * image.size[1]))
-    image.pixels.foreach_get(pixels)
-    return pixels
 
 
 # ---- materials that vary over the surface --------------------------------------------------------
@@ -182,34 +189,36 @@ def choose_uv(stand, group, density, unwrapped):
 def settle_by_bake(stand, group, side):
     """Bake the group's first surface and give all of them the result."""
     name = group.first.name
-    albedo, emission = new_image(f"{name} albedo", side), None
+    albedo, emission, transmittance = new_image(f"{name} albedo", side), None, None
     with prepared(group) as ob, stand.holding(ob):
         bake_into(stand, ob, group, "DIFFUSE", albedo)
         if any(source.emissive for source in group.varying):
             emission = new_image(f"{name} emission", side)
             bake_into(stand, ob, group, "EMIT", emission)
+        if any(source.see_through for source in group.varying):
+            transmittance = new_image(f"{name} transmittance", side)
+            give_materials(ob, [source.window for source in group.sources])
+            bake_into(stand, ob, group, "EMIT", transmittance)
     pixels = read_pixels(albedo)
-    if max(pixels[3::4]) == 0 and not any(source.opaque_now for source in group.varying):
+    if max(pixels[3::4]) == 0 and not any(source.opaque_now or source.see_through for source in group.varying):
         raise Refusal(f"object '{name}': the bake of its albedo covered nothing; give it other lightmap UVs",
                       object_name=name)
     brightest = brightness(pixels)
-    if emission and brightness(read_pixels(emission)) == 0:
-        bpy.data.images.remove(emission)
-        emission = None
-    for image in filter(None, (albedo, emission)):
+    if transmittance:
+        cut(transmittance, pixels)
+    emission, transmittance = keep_if_bright(emission), keep_if_bright(transmittance)
+    for image in filter(None, (albedo, emission, transmittance)):
         image.alpha_mode = "NONE"
         image.pack()
     if group.uv:
         lambert_uv.keep_uv(group.mesh, group.uv)
     color = picture(albedo, group.layer, brightest > 1.0001)
-    glow = picture(emission, group.layer) if emission else (0, 0, 0)
-    assign(group, {source: stand_in(source, color, glow if source.emissive else (0, 0, 0))
+    glow = picture(emission, group.layer) if emission else BLACK
+    through = picture(transmittance, group.layer) if transmittance else BLACK
+    assign(group, {source: stand_in(source, color, glow if source.emissive else BLACK,
+                                    through if source.see_through else BLACK)
                    for source in set(group.varying)})
     return [above_one(name)] if brightest > 1.0001 else []
-
-
-def brightness(pixels):
-    return max(max(pixels[channel::4]) for channel in range(3))
 
 
 @contextmanager
@@ -243,7 +252,7 @@ def assign(group, by_bake):
     """The uniform slots get plain materials, the others what was baked."""
     for source in group.sources:
         if not source.uniform and source not in by_bake:
-            by_bake[source] = stand_in(source, UNSEEN, (0, 0, 0))
+            by_bake[source] = stand_in(source, UNSEEN, BLACK)
     materials = [source.plain if source.uniform else by_bake[source] for source in group.sources]
     for surface in group.surfaces:
         give_materials(surface.object, materials)

@@ -5,6 +5,7 @@ from scene_ops.describe import describe_material
 from scene_ops.describe_nodes import active_output, reachable_nodes
 from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
+from scene_ops.see_through import glow_where_transparent, lets_light_through
 
 # Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
 UNIFORM = {
@@ -18,6 +19,7 @@ MESH_BOUND = {
     "UVMAP", "MAPPING", "TEX_IMAGE", "TEX_CHECKER", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "TEX_BRICK",
     "TEX_GRADIENT", "TEX_MUSGRAVE", "TEX_WHITE_NOISE", "TEX_GABOR", "VERTEX_COLOR", "NORMAL_MAP", "BUMP",
 }
+BLACK = (0, 0, 0)
 OPAQUE_NOW = ("transparent", "glass", "transmission", "holdout", "ray portal")
 UV_ATTRIBUTE = "rnmbake albedo"
 
@@ -32,17 +34,33 @@ class Source:
         self.mesh_bound = all(is_uniform(node) or is_mesh_bound(node) for node in nodes)
         about = describe_material(material) if material else {"emissive": False, "outside_model": []}
         self.emissive = about["emissive"]
+        self.see_through = lets_light_through(material)
         self.opaque_now = [what for what in about["outside_model"] if what in OPAQUE_NOW]
         self.notes = MaterialNotes(material)
         self.bakeable, self._texture = make_bakeable(material)
+        self._window = self._window_texture = None
         self.plain = None
 
     @property
     def name(self):
         return self.material.name_full if self.material else ""
 
+    @property
+    def window(self):
+        """A copy that emits what the material lets through."""
+        if self._window is None:
+            self._window, self._window_texture = make_bakeable(self.material)
+            glow_where_transparent(self._window.node_tree)
+        return self._window
+
     def write_to(self, image):
         self._texture.image = image
+        if self._window:
+            self._window_texture.image = image
+
+    def remove_copies(self):
+        for copy in filter(None, (self.bakeable, self._window)):
+            bpy.data.materials.remove(copy)
 
 
 def surface_nodes(material):
@@ -76,7 +94,7 @@ def make_bakeable(material):
     copy = material.copy() if material else bpy.data.materials.new("rnmbake empty slot")
     if material is None or not material.use_nodes or material.node_tree is None:
         color = tuple(material.diffuse_color)[:3] if material else (0.8, 0.8, 0.8)  # what Cycles shows
-        make_lambert(copy, color, (0, 0, 0))
+        make_lambert(copy, color, BLACK)
     nodes = copy.node_tree.nodes
     texture = nodes.new("ShaderNodeTexImage")
     for node in nodes:
@@ -85,18 +103,22 @@ def make_bakeable(material):
     return copy, texture
 
 
-def make_lambert(material, color, emission):
-    """Diffuse BSDF of roughness 0 and emission. Each of the two is a colour, or an output socket's maker."""
+def make_lambert(material, color, emission, transmittance=BLACK):
+    """Diffuse BSDF of roughness 0, emission and what goes straight through, added up.
+
+    Each of the three is a colour, or an output socket's maker.
+    """
     nodes, links, surface = new_tree(material)
     shader = nodes.new("ShaderNodeBsdfDiffuse")
     shader.inputs["Roughness"].default_value = 0
     _feed(nodes, links, shader.inputs["Color"], color)
-    if callable(emission) or any(emission):
-        glow, both = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeAddShader")
-        glow.inputs["Strength"].default_value = 1
-        _feed(nodes, links, glow.inputs["Color"], emission)
+    for kind, value in (("Emission", emission), ("BsdfTransparent", transmittance)):
+        if not callable(value) and not any(value):
+            continue
+        other, both = nodes.new("ShaderNode" + kind), nodes.new("ShaderNodeAddShader")
+        _feed(nodes, links, other.inputs["Color"], value)
         links.new(shader.outputs[0], both.inputs[0])
-        links.new(glow.outputs[0], both.inputs[1])
+        links.new(other.outputs[0], both.inputs[1])
         shader = both
     links.new(shader.outputs[0], surface)
 
@@ -131,10 +153,10 @@ def picture(image, uv_layer, at_most_one=False):
     return make
 
 
-def stand_in(source, color, emission):
+def stand_in(source, color, emission, transmittance=BLACK):
     """The lambert material for a source, which keeps its name for those who ask (--split material)."""
     material = bpy.data.materials.new(source.name or "rnmbake empty slot")
     material[LABEL_PROPERTY] = source.name
     source.notes.write_to(material)
-    make_lambert(material, color, emission)
+    make_lambert(material, color, emission, transmittance)
     return material

@@ -26,8 +26,9 @@ struct NormalMap {
   float strength = 1;
 };
 
-/// What one material slot of one object looks like to Cycles: an ideal diffuse reflector that may glow.
-/// A picture stands in place of the constant; it is read bilinearly, clamped at the borders.
+/// What one material slot of one object looks like to Cycles: an ideal diffuse reflector that may glow and
+/// let light straight through. A picture stands in place of the constant; it is read bilinearly, clamped at
+/// the borders.
 struct Look {
   std::string material;
   Vec3 albedo{0, 0, 0};                            // in [0, 1]
@@ -35,6 +36,13 @@ struct Look {
   int albedo_picture = -1, emission_picture = -1;  // indices into Exchange::pictures
   int picture_uv = -1;                             // index into Exchange::picture_uvs
   int normal_map = -1;                             // index into Exchange::normal_maps
+  Vec3 transmittance{0, 0, 0};  // in [0, 1], with the albedo at most 1; the same from both sides
+  int transmittance_picture = -1;
+
+  /// Whether light goes through some of it.
+  [[nodiscard]] bool see_through() const {
+    return transmittance_picture >= 0 || transmittance != Vec3(0, 0, 0);
+  }
 };
 
 /// Radiance from where nothing is hit. A picture is equirectangular as Blender's: the top row is +z, the

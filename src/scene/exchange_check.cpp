@@ -7,6 +7,7 @@ namespace rnmbake {
 namespace {
 
 constexpr const char* remedy = "export the scene again";
+constexpr float rounding = 1e-4F;  // of sums of colours that make 1
 
 bool is_light(float value) {
   return value >= 0 && std::isfinite(value);
@@ -14,6 +15,10 @@ bool is_light(float value) {
 
 bool is_light(const Vec3& color) {
   return is_light(color.x) && is_light(color.y) && is_light(color.z);
+}
+
+float largest(const Vec3& color) {
+  return std::max({color.x, color.y, color.z});
 }
 
 /// `none`: whether -1 is a choice.
@@ -38,15 +43,22 @@ void check_pictures(const Exchange& scene) {
 
 void check_look(const Exchange& scene, const Look& look) {
   const std::string owner = "material '" + look.material + "'";
-  if (!is_light(look.albedo) || std::max({look.albedo.x, look.albedo.y, look.albedo.z}) > 1)
+  if (!is_light(look.albedo) || largest(look.albedo) > 1)
     fail(ExitCode::invalid_input, "{}: its albedo is not within 0 and 1; {}", owner, remedy);
+  if (!is_light(look.transmittance) || largest(look.transmittance) > 1)
+    fail(ExitCode::invalid_input, "{}: its transmittance is not within 0 and 1; {}", owner, remedy);
+  if (look.albedo_picture < 0 && look.transmittance_picture < 0 &&
+      largest(look.albedo + look.transmittance) > 1 + rounding)
+    fail(ExitCode::invalid_input, "{}: its albedo and transmittance together are above 1; {}", owner, remedy);
   if (!is_light(look.emission))
     fail(ExitCode::invalid_input, "{}: its emission is negative or not finite; {}", owner, remedy);
   check_index(look.albedo_picture, scene.pictures.size(), true, owner, "albedo picture");
   check_index(look.emission_picture, scene.pictures.size(), true, owner, "emission picture");
+  check_index(look.transmittance_picture, scene.pictures.size(), true, owner, "transmittance picture");
   check_index(look.picture_uv, scene.picture_uvs.size(), true, owner, "picture UVs");
   check_index(look.normal_map, scene.normal_maps.size(), true, owner, "normal map");
-  if (look.picture_uv < 0 && (look.albedo_picture >= 0 || look.emission_picture >= 0))
+  if (look.picture_uv < 0 &&
+      (look.albedo_picture >= 0 || look.emission_picture >= 0 || look.transmittance_picture >= 0))
     fail(ExitCode::invalid_input, "{}: its picture has no UVs; {}", owner, remedy);
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 // The file: magic, version, sizes; the JSON part, filled up with blanks; the binary part; the checksum of
 // everything before it (docs/rnmscene-format.md). Little-endian.
 constexpr std::string_view magic = "rnmscene";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2, oldest_version = 1;  // version 1 knew no transmittance
 constexpr std::size_t alignment = 16;
 
 struct Header {
@@ -41,9 +41,10 @@ Header read_header(const std::vector<char>& bytes, const std::string& name) {
       std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
     fail(ExitCode::invalid_input, "{}: not a scene that rnmbake export wrote", name);
   std::memcpy(&header, bytes.data(), sizeof(Header));
-  if (header.version != format_version) {
-    fail(ExitCode::unsupported, "{}: format {} of .rnmscene, this rnmbake reads {}; export the scene again",
-         name, header.version, format_version);
+  if (header.version < oldest_version || header.version > format_version) {
+    fail(ExitCode::unsupported,
+         "{}: format {} of .rnmscene, this rnmbake reads {} to {}; export the scene again", name,
+         header.version, oldest_version, format_version);
   }
   const std::size_t room = bytes.size() - sizeof(Header) - checksum_bytes;
   if (header.json_bytes > room || header.data_bytes != room - header.json_bytes) {

@@ -23,6 +23,10 @@ Look read_look(const json& entry) {
   look.emission_picture = index_at(entry, "emission_picture");
   look.picture_uv = index_at(entry, "picture_uv");
   look.normal_map = index_at(entry, "normal_map");
+  if (const auto found = entry.find("transmittance"); found != entry.end())
+    look.transmittance = read_color(*found, "transmittance of material '" + look.material + "'");
+  if (entry.contains("transmittance_picture"))
+    look.transmittance_picture = index_at(entry, "transmittance_picture");
   return look;
 }
 

@@ -102,8 +102,10 @@ json store_look(const Look& look) {
   return {{"material", look.material},
           {"albedo", store_color(look.albedo)},
           {"emission", store_color(look.emission)},
+          {"transmittance", store_color(look.transmittance)},
           {"albedo_picture", look.albedo_picture},
           {"emission_picture", look.emission_picture},
+          {"transmittance_picture", look.transmittance_picture},
           {"picture_uv", look.picture_uv},
           {"normal_map", look.normal_map}};
 }

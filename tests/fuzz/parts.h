@@ -13,7 +13,7 @@ struct Parts {
   std::string text, data;
 };
 
-inline constexpr std::string_view file_start("rnmscene\1\0\0\0\0\0\0\0", 16);
+inline constexpr std::string_view file_start("rnmscene\2\0\0\0\0\0\0\0", 16);
 inline constexpr std::size_t header_bytes = 32, checksum_bytes = 8;
 
 /// Whatever the sizes in the header say, all bytes are in one of the two parts.

@@ -46,7 +46,7 @@ struct Parts {
   [[nodiscard]] std::vector<char> file() const {
     const std::string text = content.dump();
     const std::uint64_t sizes[] = {text.size(), data.size()};
-    std::string bytes("rnmscene\1\0\0\0\0\0\0\0", 16);
+    std::string bytes("rnmscene\2\0\0\0\0\0\0\0", 16);
     bytes.append(reinterpret_cast<const char*>(sizes), 16);
     bytes += text + data + std::string(checksum_bytes, '\0');
     return {bytes.begin(), bytes.end()};
@@ -97,6 +97,8 @@ TEST(Exchange, ComesBackAsItWasWritten) {
   EXPECT_EQ(after.normal_maps[0].strength, 0.5F);
   EXPECT_EQ(after.looks[0].emission_picture, 1);
   EXPECT_EQ(after.looks[1].emission, Vec3(4, 2, 1));
+  EXPECT_EQ(after.looks[0].transmittance_picture, 0);
+  EXPECT_EQ(after.looks[1].transmittance, Vec3(0.25F, 0.5F, 0.75F));
   EXPECT_EQ(after.object_looks, before.object_looks);
   EXPECT_TRUE(after.takes_part(0));
   EXPECT_FALSE(after.takes_part(1));
@@ -151,8 +153,8 @@ TEST(Exchange, ReadsFilesAndFindsEveryDamage) {
   rotten[whole.size() - 100] ^= 1;
   EXPECT_NE(refused(rotten).find("checksum"), std::string::npos);
   std::string other = whole;
-  other[8] = 2;
-  EXPECT_NE(refused(other).find("format 2"), std::string::npos);
+  other[8] = 3;
+  EXPECT_NE(refused(other).find("format 3"), std::string::npos);
   EXPECT_NE(refused("not a scene at all, but long enough for a header").find("not a scene"),
             std::string::npos);
 }
@@ -172,6 +174,8 @@ TEST(Exchange, RefusesIndicesThatPointNowhere) {
   EXPECT_SAYS("looks for 1 objects", [](Parts& p) { p.own()["object_looks"].erase(1); });
   EXPECT_SAYS("material 'brick': albedo picture 3 of 3",
               [](Parts& p) { p.own()["looks"][0]["albedo_picture"] = 3; });
+  EXPECT_SAYS("material 'brick': transmittance picture 3 of 3",
+              [](Parts& p) { p.own()["looks"][0]["transmittance_picture"] = 3; });
   EXPECT_SAYS("material 'brick': emission picture 2147483647 of 3",
               [](Parts& p) { p.own()["looks"][0]["emission_picture"] = std::uint64_t{1} << 40; });
   EXPECT_SAYS("no count", [](Parts& p) { p.own()["looks"][0]["emission_picture"] = 1e15; });
@@ -203,6 +207,15 @@ TEST(Exchange, RefusesWhatIsNoNumber) {
   EXPECT_SAYS("UV layer 'Lightmap'",
               [&](Parts& p) { p.put(offset(p.content["meshes"][0]["uv_layers"][1]), nan); });
   EXPECT_SAYS("material 'lamp': its albedo", [](Parts& p) { p.own()["looks"][1]["albedo"] = {2, 0, 0}; });
+  EXPECT_SAYS("material 'lamp': its transmittance is not", [](Parts& p) {
+    p.own()["looks"][1]["transmittance"] = {0, -0.5, 0};
+  });
+  EXPECT_SAYS("material 'lamp': its transmittance is not", [](Parts& p) {
+    p.own()["looks"][1]["transmittance"] = {0, 1.5, 0};
+  });
+  EXPECT_SAYS("material 'lamp': its albedo and transmittance together are above 1", [](Parts& p) {
+    p.own()["looks"][1]["transmittance"] = {0.5, 0.8, 0};
+  });
   EXPECT_SAYS("material 'lamp': its emission", [](Parts& p) {
     p.own()["looks"][1]["emission"] = {-2, 0, 0};
   });
@@ -246,6 +259,19 @@ TEST(Exchange, RefusesWhatIsMissingOrOfAnotherKind) {
   }
   EXPECT_SAYS(
       "another rnmbake", [](Parts& p) { p.content["format"] = 2; }, ExitCode::unsupported);
+}
+
+TEST(Exchange, ReadsVersionOneWithoutTransmittance) {
+  Parts parts(bytes_of(everything()));
+  for (json& look : parts.own()["looks"]) {
+    look.erase("transmittance");
+    look.erase("transmittance_picture");
+  }
+  std::vector<char> file = parts.file();
+  file[8] = 1;
+  const Exchange scene = parse_exchange(file, "old");
+  for (const Look& look : scene.looks) EXPECT_FALSE(look.see_through());
+  EXPECT_TRUE(everything().looks[1].see_through());
 }
 
 TEST(Exchange, BentBytesGiveErrorsAndNothingElse) {

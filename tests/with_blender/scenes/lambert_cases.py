@@ -54,6 +54,41 @@ def mix(share, one, other):
     return build
 
 
+def add(one, other):
+    def build(tree):
+        node = tree.nodes.new("ShaderNodeAddShader")
+        tree.links.new(one(tree), node.inputs[0])
+        tree.links.new(other(tree), node.inputs[1])
+        return node.outputs[0]
+    return build
+
+
+def grouped(inner):
+    """In a node group, behind a reroute."""
+    def build(tree):
+        group = bpy.data.node_groups.new("group", "ShaderNodeTree")
+        if hasattr(group, "interface"):
+            group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+        else:
+            group.outputs.new("NodeSocketShader", "Shader")
+        reroute = group.nodes.new("NodeReroute")
+        group.links.new(inner(group), reroute.inputs[0])
+        group.links.new(reroute.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        return node.outputs[0]
+    return build
+
+
+def by_ray(one, other):
+    """`other` for shadow rays."""
+    def build(tree):
+        mixed = mix(0.5, one, other)(tree)
+        tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Shadow Ray"], mixed.node.inputs[0])
+        return mixed
+    return build
+
+
 def quad(name, corners, *materials, collection=None):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
@@ -107,6 +142,11 @@ def materials(path):
         "glossy": shader("BsdfGlossy"),
         "glass": shader("BsdfGlass"),
         "half_transparent": mix(0.5, shader("BsdfDiffuse", Color=base), shader("BsdfTransparent")),
+        "alpha": shader("BsdfPrincipled", BaseColor=base, Alpha=0.25),
+        "tinted": grouped(add(mix(0.75, shader("BsdfDiffuse", Color=base), shader("BsdfTransparent", Color=(1, 0.5, 0, 1))),
+                              shader("Emission", Strength=2.0))),
+        "too_much": add(shader("BsdfDiffuse", Color=base), shader("BsdfTransparent", Color=(0.5, 0.5, 0.5, 1))),
+        "by_ray": by_ray(shader("BsdfDiffuse", Color=base), shader("BsdfTransparent")),
     }
     for number, (name, build) in enumerate(cases.items()):
         x = 2 * number

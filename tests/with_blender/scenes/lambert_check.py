@@ -1,8 +1,12 @@
 """blender -b --factory-startup --python lambert_check.py -- ORIGINAL LAMBERT: each object's constant albedo and
-emission are what a bake of that object alone, with its own material, gives."""
+emission are what a bake of that object alone, with its own material, gives; and see-through ones let through what
+their nodes say."""
 import sys
 
 import bpy
+
+TRANSMITTANCE = {"half_transparent": (0.5, 0.5, 0.5), "alpha": (0.75, 0.75, 0.75), "tinted": (0.75, 0.375, 0),
+                 "too_much": (0.2, 0.5, 0.5)}
 
 
 def bake(ob, kind, options):
@@ -39,7 +43,9 @@ def stated(path):
         diffuse = next(node for node in nodes if node.type == "BSDF_DIFFUSE")
         assert diffuse.inputs["Roughness"].default_value == 0
         glow = [node.inputs["Color"].default_value[:3] for node in nodes if node.type == "EMISSION"]
-        found[ob.name] = (tuple(diffuse.inputs["Color"].default_value[:3]), tuple(glow[0]) if glow else (0, 0, 0))
+        through = [tuple(node.inputs["Color"].default_value[:3]) for node in nodes if node.type == "BSDF_TRANSPARENT"]
+        found[ob.name] = (tuple(diffuse.inputs["Color"].default_value[:3]), tuple(glow[0]) if glow else (0, 0, 0),
+                          through[0] if through else (0, 0, 0))
     return found
 
 
@@ -47,6 +53,7 @@ original, lambert = sys.argv[sys.argv.index("--") + 1:]
 expected, got = measured(original), stated(lambert)
 assert expected.keys() == got.keys(), (expected.keys(), got.keys())
 for name, colors in expected.items():
+    colors += (TRANSMITTANCE.get(name, (0, 0, 0)),)
     for one, other in zip(colors, got[name]):
         assert all(abs(a - b) <= 1e-5 * max(1, a) for a, b in zip(one, other)), (name, colors, got[name])
 assert expected["metallic"][0] != expected["principled"][0] != expected["transmission"][0]

@@ -1,0 +1,75 @@
+"""Materials that let light straight through: Transparent BSDFs and Principled BSDFs whose alpha is below 1.
+
+How much goes through is asked of Cycles itself: a copy of the material in which every such closure glows in its own
+transparency, and nothing else does, is baked as emission. Mixes, groups and textures stay as they are.
+"""
+from scene_ops.describe_nodes import active_output, constant, is_zero, reachable_nodes
+
+
+def lets_light_through(material):
+    """A tree that asks what kind of ray meets it is opaque here: no single number tells what it lets through."""
+    output = active_output(material) if material else None
+    nodes = list(reachable_nodes(output.inputs["Surface"])) if output else []
+    return any(is_transparent(node) for node in nodes) and all(node.type != "LIGHT_PATH" for node in nodes)
+
+
+def is_transparent(node):
+    if node.type == "BSDF_TRANSPARENT":
+        return not is_zero(node, "Color")
+    return node.type == "BSDF_PRINCIPLED" and constant(node, "Alpha") != 1.0
+
+
+def casts_opaque_shadow(material):
+    """The material's own switch."""
+    owner = material if hasattr(material, "use_transparent_shadow") else material.cycles  # before 4.2
+    return not owner.use_transparent_shadow
+
+
+def glow_where_transparent(tree):
+    """Every closure of a tree emits what it lets through; groups get trees of their own."""
+    for node in list(tree.nodes):
+        if node.mute:
+            continue
+        if node.type == "GROUP" and node.node_tree:
+            node.node_tree = node.node_tree.copy()
+            glow_where_transparent(node.node_tree)
+        elif is_closure(node):
+            replace(tree, node)
+
+
+def is_closure(node):
+    return node.type not in ("MIX_SHADER", "ADD_SHADER", "GROUP", "GROUP_INPUT", "REROUTE") and \
+        any(output.type == "SHADER" for output in node.outputs)
+
+
+def replace(tree, node):
+    glow = None
+    if node.type == "BSDF_TRANSPARENT":
+        glow = emission(tree)
+        feed(tree, node.inputs["Color"], glow.inputs["Color"])
+    elif is_transparent(node):
+        glow, rest = emission(tree), tree.nodes.new("ShaderNodeMath")
+        rest.operation, rest.use_clamp = "SUBTRACT", True
+        rest.inputs[0].default_value = 1
+        feed(tree, node.inputs["Alpha"], rest.inputs[1])
+        tree.links.new(rest.outputs[0], glow.inputs["Strength"])
+    for output in node.outputs:
+        for link in [link for link in output.links if not link.is_muted]:
+            target = link.to_socket
+            tree.links.remove(link)
+            if glow and output.type == "SHADER":
+                tree.links.new(glow.outputs[0], target)
+
+
+def emission(tree):
+    node = tree.nodes.new("ShaderNodeEmission")
+    node.inputs["Color"].default_value, node.inputs["Strength"].default_value = (1, 1, 1, 1), 1
+    return node
+
+
+def feed(tree, source, target):
+    """`target` gets what `source` gets."""
+    if source.is_linked:
+        tree.links.new(source.links[0].from_socket, target)
+    else:
+        target.default_value = source.default_value
