@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/names.h"
 #include "pipeline/compare.h"
 #include "pipeline/decompose.h"
 #include "pipeline/render_compare.h"
@@ -30,6 +31,30 @@ struct Emulation {
   TraceVariant variant;
 };
 
+/// The targets whose objects fit a pattern; the word "none" alone chooses none.
+TargetList chosen(const ExportedScene& exported, const std::vector<std::string>& patterns) {
+  TargetList list;
+  if (patterns == std::vector<std::string>{"none"}) return list;
+  const auto& objects = exported.exchange.survey.objects;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < exported.list.targets.size(); ++i) {
+    const SceneObject& object = objects[exported.list.targets[i].object];
+    names.insert(names.end(), {object.name, object.key});
+    if (std::ranges::none_of(patterns, [&](const std::string& pattern) {
+          return glob_match(pattern, object.name) || glob_match(pattern, object.key);
+        }))
+      continue;
+    list.targets.push_back(exported.list.targets[i]);
+    list.settings.push_back(exported.list.settings[i]);
+  }
+  const auto lost = unmatched(patterns, names);
+  if (!lost.empty()) {
+    fail(ExitCode::usage, "--decompose: no object that is baked is called '{}'{}", lost.front(),
+         did_you_mean(lost.front(), names));
+  }
+  return list;
+}
+
 class ValidateRun {
  public:
   ValidateRun(Workspace& workspace, const std::vector<BasisDirection>& bases, const ValidateOptions& options)
@@ -40,6 +65,7 @@ class ValidateRun {
         plan_(plan_reference(workspace.config(), exported_.exchange.survey.blender_version)),
         scene_(exported_.exchange, plan_.blender_version),
         base_{workspace, exported_, scene_, bases},
+        decomposed_(chosen(exported_, options.decompose)),
         own_(has_own_materials()),
         faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))) {
     if (options.split_study) study_ = splittings(exported_);
@@ -48,9 +74,9 @@ class ValidateRun {
   Validation run() {
     Steps steps(step_count(), whole_weight());
     for (const BakeVariant& variant : bakes()) bake(variant, steps);
-    trace(truth(), "tracing the truth", steps);
+    trace(exported_.list, truth(), "tracing the truth", steps);
     for (const auto& [fault, variant] : emulations())
-      trace(variant, fmt::format("tracing the recipe's faults up to {}", fault), steps);
+      trace(decomposed_, variant, fmt::format("tracing the recipe's faults up to {}", fault), steps);
     SplitStudy study;
     for (const Splitting& splitting : study_) {
       steps.begin(fmt::format("study: {}, {} targets", splitting.name, splitting.list.targets.size()),
@@ -72,6 +98,7 @@ class ValidateRun {
   }
 
  private:
+  [[nodiscard]] bool decomposes() const { return !decomposed_.targets.empty(); }
   [[nodiscard]] bool shows_view() const { return options_.view > 0 && exported_.exchange.camera; }
 
   /// The receiver's lightmaps, put back into the scene.
@@ -105,7 +132,7 @@ class ValidateRun {
     for (const Materials materials : {Materials::lambert, Materials::full}) {
       if (materials == Materials::full && !own_) break;
       list.push_back(bake_of(Recipe::receiver, materials));
-      list.push_back(bake_of(Recipe::flat_normal_map, materials));
+      if (decomposes()) list.push_back(bake_of(Recipe::flat_normal_map, materials));
     }
     return list;
   }
@@ -115,6 +142,7 @@ class ValidateRun {
   /// The faults that this Blender has, one more each time.
   [[nodiscard]] std::vector<Emulation> emulations() const {
     std::vector<Emulation> list;
+    if (!decomposes()) return list;
     TraceVariant variant = truth();
     variant.plan.flat_normal_map = true;
     int number = 0;
@@ -146,7 +174,8 @@ class ValidateRun {
     for (const int half : {0, 1}) {
       steps.begin(fmt::format("baking {}, half {} of 2", variant.folder.string(), half + 1),
                   weight_of(variant));
-      const BakeOutcome outcome = bake_half(base_, exported_.list, variant, half);
+      const bool whole = variant.recipe == Recipe::receiver;
+      const BakeOutcome outcome = bake_half(base_, whole ? exported_.list : decomposed_, variant, half);
       const std::size_t failed = count_failed(outcome.deliveries);
       if (failed == outcome.deliveries.size()) {
         fail(ExitCode::tasks_failed, "no object could be baked by {}; what went wrong stands above",
@@ -156,9 +185,9 @@ class ValidateRun {
     }
   }
 
-  void trace(const TraceVariant& variant, const std::string& name, Steps& steps) {
+  void trace(const TargetList& list, const TraceVariant& variant, const std::string& name, Steps& steps) {
     steps.begin(name, trace_weight);
-    complete_ &= count_failed(trace_variant(base_, exported_.list, variant).deliveries) == 0;
+    complete_ &= count_failed(trace_variant(base_, list, variant).deliveries) == 0;
   }
 
   [[nodiscard]] Halves halves(Recipe recipe, Materials materials) const {
@@ -190,17 +219,22 @@ class ValidateRun {
   }
 
   [[nodiscard]] Validation compare(const SplitStudy& study) const {
-    Validation result{against_truth(Recipe::receiver, "receiver"),
-                      against_truth(Recipe::flat_normal_map, "flat-normal-map"), complete_};
-    const std::vector<Decomposition> parts = decompose(decompose_input());
-    const std::string of_recipe = recipe_finding(parts.front());
-    result.recipe.finding = of_recipe + ".";
-    result.receiver.finding = receiver_finding(result.receiver) + "; " + of_recipe + ".";
-    for (Report* report : {&result.receiver, &result.recipe}) {
-      report->decompositions = parts;
-      report->study = study;
-      add_notes(*report);
+    Validation result{against_truth(Recipe::receiver, "receiver"), {}, complete_};
+    Report& receiver = result.receiver;
+    receiver.finding = receiver_finding(receiver);
+    receiver.study = study;
+    if (decomposes()) {
+      receiver.decompositions = decompose(decompose_input());
+      const std::string of_recipe = recipe_finding(receiver.decompositions.front());
+      receiver.finding += "; " + of_recipe;
+      result.recipe = against_truth(Recipe::flat_normal_map, "flat-normal-map");
+      result.recipe->finding = of_recipe + ".";
+      result.recipe->decompositions = receiver.decompositions;
+      result.recipe->study = study;
+      add_notes(*result.recipe);
     }
+    receiver.finding += ".";
+    add_notes(receiver);
     return result;
   }
 
@@ -208,10 +242,15 @@ class ValidateRun {
     report.settings.emplace_back("materials",
                                  own_ ? "lambert; own materials too, for the rows that are about them"
                                       : "lambert, which is what the scene's own are");
-    report.notes.emplace_back(
-        "The decomposition is of flat-normal-map minus the reference. Causes are added to the tracer one "
-        "after "
-        "the other; 'residual' is Cycles' bake minus the tracer with all of them.");
+    if (decomposed_.targets.size() < exported_.list.targets.size()) {
+      report.notes.push_back(fmt::format("The published recipe baked {} of {} targets (--decompose).",
+                                         decomposed_.targets.size(), exported_.list.targets.size()));
+    }
+    if (decomposes())
+      report.notes.emplace_back(
+          "The decomposition is of flat-normal-map minus the reference. Causes are added to the tracer one "
+          "after "
+          "the other; 'residual' is Cycles' bake minus the tracer with all of them.");
     for (const OutsideModel& outside : exported_.exchange.outside) {
       if (outside.owner.starts_with("object ")) continue;  // stands with the object
       std::string what;
@@ -227,6 +266,7 @@ class ValidateRun {
   ReferencePlan plan_;
   TraceScene scene_;
   VariantBase base_;
+  TargetList decomposed_;
   bool own_;
   RecipeFaults faults_;
   std::vector<Splitting> study_;

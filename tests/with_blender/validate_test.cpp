@@ -155,6 +155,27 @@ TEST_F(Validate, KeepsEveryStepAndSaysHowToRepeatIt) {
   EXPECT_NE(report_.at("finding").get<std::string>().find("flat-normal-map: "), std::string::npos);
 }
 
+TEST_F(Validate, TakesApartOnlyTheObjectsAskedFor) {
+  const Ended some =
+      validate("some", {"--objects", "floor,tall", "--bases", "flat", "--view", "0", "--decompose", "floor"});
+  EXPECT_EQ(some.exit_code, 0) << some.output;
+  const json report = json::parse(read_text(folder_->path() / "some" / "report.json"));
+  EXPECT_EQ(report.at("objects").size(), 2U);
+  ASSERT_EQ(report.at("decompositions").size(), 2U);  // the scene's, the floor's
+  EXPECT_EQ(report.at("decompositions").at(1).at("subject"), "floor");
+  EXPECT_NE(report.at("command").get<std::string>().find("--decompose floor"), std::string::npos);
+
+  const Ended none =
+      validate("none", {"--objects", "floor", "--bases", "flat", "--view", "0", "--decompose", "none"});
+  EXPECT_EQ(none.exit_code, 0) << none.output;
+  EXPECT_TRUE(json::parse(read_text(folder_->path() / "none" / "report.json")).at("decompositions").empty());
+  EXPECT_FALSE(fs::exists(folder_->path() / "none" / "flat-normal-map"));
+
+  const Ended wrong = validate("wrong", {"--objects", "floor", "--decompose", "flor"});
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.output;
+  EXPECT_NE(wrong.output.find("floor"), std::string::npos) << wrong.output;
+}
+
 TEST_F(Validate, AThresholdThatIsExceededIsExitCode7) {
   const Ended strict = validate(
       "strict", {"--objects", "floor", "--bases", "flat", "--view", "0", "--fail-above", "max=0.0001%"});
