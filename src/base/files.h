@@ -1,6 +1,7 @@
 // base/files.h - files that appear whole or not at all, and private temporary folders.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -22,6 +23,9 @@ class AtomicFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
   void write(std::string_view bytes);
+
+  /// At a place of the file, which may lie beyond its end.
+  void write_at(std::string_view bytes, std::int64_t offset);
 
   /// fsync, then rename over the target.
   void commit();

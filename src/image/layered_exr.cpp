@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "image/oiio_bytes.h"
+#include "image/oiio_open.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,15 +28,6 @@ void check(const std::filesystem::path& file, const LayeredImage& image) {
       fail(ExitCode::invalid_input, "{}: layer '{}' has {} channels but {} channel names", file.string(),
            layer.name, pixels.channels(), layer.channels.size());
     }
-  }
-}
-
-void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Attribute& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) spec.attribute(name, *text);
-  if (const auto* whole = std::get_if<int>(&value)) spec.attribute(name, *whole);
-  if (const auto* number = std::get_if<float>(&value)) spec.attribute(name, *number);
-  if (const auto* list = std::get_if<std::vector<float>>(&value)) {
-    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(list->size())), list->data());
   }
 }
 

@@ -1,21 +1,15 @@
 #include "base/error.h"
 #include "image/layered_exr.h"
+#include "image/oiio_open.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <map>
-#include <memory>
 #include <new>
-#include <optional>
 
 #include <OpenImageIO/imageio.h>
 
 namespace rnmbake {
 namespace {
-
-constexpr OIIO::imagesize_t kMostBytes = 64ULL << 30;  // a header that promises more is taken as damaged
 
 /// Where a channel of the file belongs: `index` is its place among the file's channels.
 struct ChannelPlace {
@@ -60,55 +54,6 @@ Layer layer_of(const std::string& name, const std::vector<ChannelPlace>& places,
   return layer;
 }
 
-std::optional<Attribute> attribute_of(const OIIO::ParamValue& value) {
-  const OIIO::TypeDesc type = value.type();
-  if (type == OIIO::TypeDesc::STRING) return Attribute(value.get_string());
-  if (type == OIIO::TypeDesc::INT) return Attribute(value.get_int());
-  if (type == OIIO::TypeDesc::FLOAT) return Attribute(value.get_float());
-  if (type.basetype != OIIO::TypeDesc::FLOAT) return std::nullopt;
-  const auto* numbers = static_cast<const float*>(value.data());
-  return Attribute(std::vector<float>(numbers, numbers + type.basevalues()));
-}
-
-void copy_attributes(const OIIO::ImageSpec& spec, LayeredImage& image) {
-  for (const OIIO::ParamValue& value : spec.extra_attribs) {
-    const std::string name = value.name().string();
-    if (name.starts_with("oiio:")) continue;  // the library's own remarks, not the file's
-    if (auto attribute = attribute_of(value)) image.attributes[name] = *attribute;
-  }
-}
-
-void check_readable(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (std::filesystem::is_directory(file))
-    fail(ExitCode::io, "cannot read {}: is a folder; name a picture", file.string());
-  if (!in) fail(ExitCode::io, "cannot read {}: {}", file.string(), std::strerror(errno != 0 ? errno : EIO));
-}
-
-[[noreturn]] void fail_damaged(const std::filesystem::path& file, std::string reason) {
-  std::ranges::replace(reason, '\n', ' ');
-  fail(ExitCode::invalid_input, "{} is damaged, truncated or not a picture: {}", file.string(),
-       reason.empty() ? "no reason given" : reason);
-}
-
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& file) {
-  check_readable(file);
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha",
-                   1);  // or the colours of a normal map come multiplied by its alpha
-  auto in = OIIO::ImageInput::open(file.string(), &config);
-  if (!in) fail_damaged(file, OIIO::geterror());
-  const OIIO::ImageSpec& spec = in->spec();
-  if (spec.deep) fail(ExitCode::unsupported, "{} is a deep image; flatten it first", file.string());
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
-      spec.image_pixels() > kMostBytes / sizeof(float) / static_cast<unsigned>(spec.nchannels)) {
-    fail_damaged(file, fmt::format("its header promises {}x{}x{} texels of {} channels", spec.width,
-                                   spec.height, spec.depth, spec.nchannels));
-  }
-  return in;
-}
-
 std::vector<float> pixels_of(const std::filesystem::path& file, OIIO::ImageInput& in) {
   const OIIO::ImageSpec& spec = in.spec();
   std::vector<float> pixels(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
@@ -121,12 +66,12 @@ std::vector<float> pixels_of(const std::filesystem::path& file, OIIO::ImageInput
 }  // namespace
 
 LayeredImage read_image(const std::filesystem::path& file) try {
-  const auto in = open(file);
+  const auto in = open_picture(file);
   const std::vector<float> pixels = pixels_of(file, *in);
   LayeredImage image;
   for (const auto& [name, places] : grouped(in->spec()))
     image.layers.push_back(layer_of(name, places, in->spec(), pixels));
-  copy_attributes(in->spec(), image);
+  image.attributes = attributes_of(in->spec());
   return image;
 } catch (const std::bad_alloc&) {
   fail(ExitCode::invalid_input, "{} does not fit into memory; scale it down", file.string());
