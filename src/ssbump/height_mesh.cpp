@@ -1,0 +1,94 @@
+#include "ssbump/height_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rnmbake {
+namespace {
+
+constexpr double reach_of_range = 64;
+constexpr int most_periods = 16;
+constexpr float skirt_periods = 1000;
+
+/// A row or column of vertices: where it stands, and whose heights it has.
+struct Line {
+  float place = 0;
+  int texel = 0;
+};
+
+std::vector<Line> lines_of(int count, Beyond beyond) {
+  std::vector<Line> lines;
+  const float skirt = skirt_periods * static_cast<float>(count);
+  if (beyond == Beyond::none) lines.push_back({-skirt, 0});
+  for (int i = 0; i < count; ++i) lines.push_back({static_cast<float>(i), i});
+  if (beyond == Beyond::none) lines.push_back({static_cast<float>(count - 1) + skirt, count - 1});
+  if (beyond == Beyond::wrap) lines.push_back({static_cast<float>(count), 0});
+  if (beyond == Beyond::mirror) lines.push_back({static_cast<float>(count), count - 1});
+  return lines;
+}
+
+struct Placed {
+  float shift = 0;
+  int sign = 1;
+};
+
+/// The field itself, then its neighbours, the nearer ones first.
+std::vector<Placed> placed(int count, Beyond beyond, double reach) {
+  std::vector<Placed> all{{}};
+  if (beyond == Beyond::none) return all;
+  const auto periods = static_cast<int>(std::ceil(reach / count));
+  const auto add = [&](int period) {
+    const auto start = static_cast<float>(period * count);
+    const bool turned = beyond == Beyond::mirror && period % 2 != 0;
+    all.push_back(turned ? Placed{start + static_cast<float>(count - 1), -1} : Placed{start, 1});
+  };
+  for (int period = 1; period <= periods; ++period) {
+    add(period);
+    add(-period);
+  }
+  return all;
+}
+
+}  // namespace
+
+HeightMesh height_mesh(const HeightField& field) {
+  const std::vector<Line> columns = lines_of(field.width(), field.x),
+                          rows = lines_of(field.height(), field.y);
+  HeightMesh mesh;
+  for (const Line& row : rows) {
+    for (const Line& column : columns)
+      mesh.positions.emplace_back(column.place, -row.place, field.heights.texel(column.texel, row.texel)[0]);
+  }
+  const auto across = static_cast<std::uint32_t>(columns.size());
+  for (std::uint32_t y = 0; y + 1 < rows.size(); ++y) {
+    for (std::uint32_t x = 0; x + 1 < across; ++x) {
+      const std::uint32_t a = y * across + x, b = a + across, c = b + 1,
+                          d = a + 1;  // round from the upper left
+      const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+      const auto& p = mesh.positions;
+      mesh.positions.push_back((p[a] + p[b] + p[c] + p[d]) / 4.0F);
+      for (const auto& [from, to] : {std::pair(a, b), {b, c}, {c, d}, {d, a}})
+        mesh.triangles.push_back({from, to, middle});
+    }
+  }
+  return mesh;
+}
+
+std::vector<HeightCopy> height_copies(const HeightField& field, double reach) {
+  std::vector<HeightCopy> copies;
+  for (const Placed& y : placed(field.height(), field.y, reach)) {
+    for (const Placed& x : placed(field.width(), field.x, reach))
+      copies.push_back({x.shift, -y.shift, x.sign, y.sign});
+  }
+  return copies;
+}
+
+double useful_reach(const HeightField& field) {
+  const auto [low, high] = std::minmax_element(field.heights.data().begin(), field.heights.data().end());
+  const double wanted = reach_of_range * (double{*high} - *low);
+  const double shorter = std::min(field.width(), field.height()),
+               longer = std::max(field.width(), field.height());
+  return std::clamp(wanted, longer, std::max(longer, most_periods * shorter));
+}
+
+}  // namespace rnmbake
