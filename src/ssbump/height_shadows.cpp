@@ -1,0 +1,160 @@
+#include "ssbump/height_shadows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+namespace rnmbake {
+namespace {
+
+constexpr int kDiscDirections = 64;
+
+int inside(int i, int size, Beyond beyond) {
+  if (i >= 0 && i < size) return i;
+  if (beyond == Beyond::none) return std::clamp(i, 0, size - 1);
+  const int period = beyond == Beyond::wrap ? size : 2 * size;
+  const int rest = (i % period + period) % period;
+  return rest < size ? rest : 2 * size - 1 - rest;
+}
+
+double height_at(const HeightField& field, int x, int y) {
+  return field.heights.texel(inside(x, field.width(), field.x), inside(y, field.height(), field.y))[0];
+}
+
+/// One axis of a walk over the grid of texel centres, begun on a grid point.
+class Axis {
+ public:
+  Axis(int start, double speed) : start_(start), speed_(speed), cell_(speed < 0 ? start - 1 : start) {}
+
+  [[nodiscard]] int cell() const { return cell_; }
+  [[nodiscard]] double speed() const { return speed_; }
+  [[nodiscard]] double next_line() const { return speed_ == 0 ? HUGE_VAL : lines_ / std::abs(speed_); }
+  /// Place within the cell, in [0, 1].
+  [[nodiscard]] double part(double distance) const {
+    return std::clamp(start_ - cell_ + speed_ * distance, 0.0, 1.0);
+  }
+  void step() {
+    cell_ += speed_ < 0 ? -1 : 1;
+    lines_ += 1;
+  }
+
+ private:
+  int start_;
+  double speed_;
+  int cell_;
+  double lines_ = 1;  // a count, so that no error adds up
+};
+
+/// Height over the start along a ray within one patch, by the distance t from the start: c0 + c1 t + c2 t^2.
+struct Parabola {
+  double c0 = 0, c1 = 0, c2 = 0;
+
+  /// Largest slope (height over distance) in [from, to], but for the point `from`, unless it is 0: there the
+  /// slope is the derivative.
+  [[nodiscard]] double steepest(double from, double to) const {
+    const auto slope = [&](double t) { return c0 / t + c1 + c2 * t; };
+    if (from == 0) return std::max(c1, c1 + c2 * to);
+    double best = slope(to);
+    if (c0 < 0 && c2 < 0) {
+      const double top = std::sqrt(c0 / c2);
+      if (top > from && top < to) best = std::max(best, slope(top));
+    }
+    return best;
+  }
+};
+
+Parabola over_patch(const HeightField& field, const Axis& x, const Axis& y, double from,
+                    double start_height) {
+  const double h00 = height_at(field, x.cell(), y.cell()) - start_height;
+  const double by_u = height_at(field, x.cell() + 1, y.cell()) - start_height - h00;
+  const double by_v = height_at(field, x.cell(), y.cell() + 1) - start_height - h00;
+  const double by_uv = height_at(field, x.cell() + 1, y.cell() + 1) - start_height - h00 - by_u - by_v;
+  const double u = x.part(from), v = y.part(from);
+  const double at = h00 + by_u * u + by_v * v + by_uv * u * v;
+  const double rise = by_u * x.speed() + by_v * y.speed() + by_uv * (u * y.speed() + v * x.speed());
+  const double bend = by_uv * x.speed() * y.speed();
+  if (from == 0) return {0, rise, bend};
+  return {at - rise * from + bend * from * from, rise - 2 * bend * from, bend};
+}
+
+/// Directions spread evenly over a cap of the sphere (Fibonacci's spiral), unit.
+std::vector<Vec3> disc_directions(const Vec3& centre, double radius) {
+  if (radius <= 0) return {centre};
+  const Vec3 aside = std::abs(centre.x) < 0.5F ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  const Vec3 u = unit(centre.cross(aside)), v = centre.cross(u);
+  const double golden = pi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> directions;
+  for (int i = 0; i < kDiscDirections; ++i) {
+    const double cosine = 1 - (1 - std::cos(radius)) * (i + 0.5) / kDiscDirections;
+    const double sine = std::sqrt(1 - cosine * cosine);
+    directions.push_back(unit(centre * static_cast<float>(cosine) +
+                              u * static_cast<float>(sine * std::cos(golden * i)) +
+                              v * static_cast<float>(sine * std::sin(golden * i))));
+  }
+  return directions;
+}
+
+}  // namespace
+
+HeightRays::HeightRays(const HeightField& field)
+    : field_(field), highest_(*std::ranges::max_element(field.heights.data())) {}
+
+double HeightRays::steepest(int x, int y, const Vec2& azimuth, double floor, Until until) const {
+  const double start = height_at(field_, x, y);
+  Axis along_x(x, azimuth.x), along_y(y, -azimuth.y);  // rows run down
+  double best = floor, from = 0;
+  while (from * best <= highest_ - start) {
+    const double to = std::min(along_x.next_line(), along_y.next_line());
+    if (to > from)
+      best = std::max(best, over_patch(field_, along_x, along_y, from, start).steepest(from, to));
+    if (until == Until::first_above && best > floor) break;
+    Axis& crossed = along_x.next_line() <= along_y.next_line() ? along_x : along_y;
+    crossed.step();
+    from = to;
+  }
+  return best;
+}
+
+double HeightRays::horizon_slope(int x, int y, const Vec2& azimuth, double floor) const {
+  return steepest(x, y, azimuth, floor, Until::end);
+}
+
+bool HeightRays::occluded(int x, int y, const Vec3& light) const {
+  if (light.z <= 0) return true;
+  const float along = std::hypot(light.x, light.y);
+  if (along == 0) return false;
+  const double slope = double(light.z) / along;
+  return steepest(x, y, Vec2(light.x, light.y) / along, slope, Until::first_above) > slope;
+}
+
+FloatImage height_shadows(const HeightField& field, const Vec3& light, double angular_radius) {
+  const HeightRays rays(field);
+  const std::vector<Vec3> directions = disc_directions(light, angular_radius);
+  FloatImage seen(field.width(), field.height(), 1);
+  tbb::parallel_for(0, field.height(), [&](int y) {
+    for (int x = 0; x < field.width(); ++x) {
+      const auto free =
+          std::ranges::count_if(directions, [&](const Vec3& d) { return !rays.occluded(x, y, d); });
+      seen.texel(x, y)[0] = static_cast<float>(free) / static_cast<float>(directions.size());
+    }
+  });
+  return seen;
+}
+
+FloatImage height_normals(const HeightField& field) {
+  FloatImage normals(field.width(), field.height(), 3);
+  for (int y = 0; y < field.height(); ++y) {
+    for (int x = 0; x < field.width(); ++x) {
+      const double right = (height_at(field, x + 1, y) - height_at(field, x - 1, y)) / 2;
+      const double up = (height_at(field, x, y - 1) - height_at(field, x, y + 1)) / 2;
+      const Vec3 normal(unit(Vec3(static_cast<float>(-right), static_cast<float>(-up), 1)));
+      std::ranges::copy(std::array{normal.x, normal.y, normal.z}, normals.texel(x, y).begin());
+    }
+  }
+  return normals;
+}
+
+}  // namespace rnmbake
