@@ -11,6 +11,7 @@
 #include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
+#include "cli/nms.h"
 #include "cli/reference.h"
 #include "cli/render.h"
 #include "cli/validate.h"
@@ -88,6 +89,13 @@ constexpr const char* about_compare =
     "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
     "confidence interval. Exit code 7 says that a limit of --fail-above was exceeded.";
 
+constexpr const char* about_nms =
+    "\n\nBoris Vorontsov's method (2020): from each texel the normals are walked towards the light, and where "
+    "they\n"
+    "rise over its ray there is shadow. No height map is needed, but the normals have to be those of a "
+    "surface:\n"
+    "--check says how far they are from that.";
+
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
     "the\n"
@@ -112,6 +120,7 @@ const std::vector<Command>& commands() {
       {"render", add_render_command, about_render},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
+      {"nms", add_nms_command, about_nms},
   };
   return all;
 }
