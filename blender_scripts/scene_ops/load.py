@@ -6,21 +6,25 @@ import bpy
 from core.task import ENVIRONMENT, INVALID_INPUT, IO, UNSUPPORTED, Refusal
 
 GLTF = (".glb", ".gltf")
+IMPORTED = (*GLTF, ".obj")
 
 
 def open_scene(task):
     """Open and check request["scene"]; returns what the user should be warned of.
 
-    A .blend was opened by Blender's own command line, before this script ran. glTF is imported here, into
-    an empty scene, and saved beside the request as imported.blend for the launches that follow.
+    A .blend was opened by Blender's own command line, before this script ran. glTF and OBJ are imported here,
+    into an empty scene, and saved beside the request as imported.blend for the launches that follow.
     """
     scene = task.request["scene"]
     extension = os.path.splitext(scene)[1].lower()
     if extension in GLTF:
         task.progress("load", os.path.basename(scene))
         import_gltf(scene)
+    elif extension == ".obj":
+        task.progress("load", os.path.basename(scene))
+        import_obj(scene)
     elif extension != ".blend":
-        raise Refusal(f"{scene}: not a .blend, .glb or .gltf file", UNSUPPORTED)
+        raise Refusal(f"{scene}: not a .blend, .glb, .gltf or .obj file", UNSUPPORTED)
     elif not bpy.data.filepath:
         raise Refusal(f"{scene}: Blender did not open it; is it damaged, or saved by a newer Blender?")
     refuse_missing_libraries()
@@ -31,7 +35,7 @@ def open_scene(task):
 
 def imported_blend(task):
     """Where the scene of an imported file is kept as a .blend; None for a scene that is one already."""
-    if os.path.splitext(task.request["scene"])[1].lower() not in GLTF:
+    if os.path.splitext(task.request["scene"])[1].lower() not in IMPORTED:
         return None
     path = task.path("imported.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, relative_remap=False, check_existing=False)
@@ -52,6 +56,20 @@ def import_gltf(path):
         raise Refusal(f"{path}: the glTF importer gave up: {last_line(error)}") from error
     if "FINISHED" not in finished:
         raise Refusal(f"{path}: the glTF importer refused the file; see the launch's stdout.log")
+    bpy.context.view_layer.update()
+
+
+def import_obj(path):
+    """By Blender's own importer (3.3 and later), which turns Y up into Z up."""
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: no such file", IO)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    try:
+        finished = bpy.ops.wm.obj_import(filepath=path)
+    except (AttributeError, RuntimeError) as error:
+        raise Refusal(f"{path}: the OBJ importer gave up: {last_line(error)}") from error
+    if "FINISHED" not in finished:
+        raise Refusal(f"{path}: the OBJ importer refused the file; see the launch's stdout.log")
     bpy.context.view_layer.update()
 
 

@@ -36,13 +36,9 @@ nlohmann::json scene_request(const Workspace& workspace, const fs::path& blend) 
           {"allow_scripts", workspace.settings().scene.allow_scripts}};
 }
 
-SurveyedScene survey_scene(Workspace& workspace) {
-  const SceneSettings& scene = workspace.settings().scene;
+SurveyedScene survey_file(Workspace& workspace, const fs::path& file) {
   SurveyedScene result;
-  result.blend = fs::absolute(scene.file);
-  if (scene.materials == SceneSettings::Materials::lambert)
-    result.blend = make_lambert_scene(workspace, result.blend);
-
+  result.blend = fs::absolute(file);
   Launch launch = launch_on(workspace, "survey_entry.py", "survey", result.blend);
   const fs::path folder = launch.folder;
   const nlohmann::json answer = workspace.run(std::move(launch));
@@ -50,8 +46,16 @@ SurveyedScene survey_scene(Workspace& workspace) {
   if (const auto imported = answer.find("blend"); imported != answer.end() && imported->is_string()) {
     result.blend = folder / imported->get<std::string>();
   }
+  result.own = result.blend;
+  return result;
+}
+
+SurveyedScene survey_scene(Workspace& workspace) {
+  const SceneSettings& scene = workspace.settings().scene;
+  const fs::path file = fs::absolute(scene.file);
   const bool lambert = scene.materials == SceneSettings::Materials::lambert;
-  result.own = lambert ? fs::absolute(scene.file) : result.blend;
+  SurveyedScene result = survey_file(workspace, lambert ? make_lambert_scene(workspace, file) : file);
+  if (lambert) result.own = file;
   for (const std::string& warning : result.survey.warnings) log::warn("{}", warning);
   if (result.survey.objects.empty()) {
     fail(ExitCode::invalid_input,

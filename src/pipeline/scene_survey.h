@@ -14,6 +14,9 @@ struct SurveyedScene {
   std::filesystem::path own;    // the same with the user's own materials
 };
 
+/// What any one file holds (.blend, glTF, OBJ), with its own materials. `own` is `blend`; nothing is logged.
+[[nodiscard]] SurveyedScene survey_file(Workspace& workspace, const std::filesystem::path& file);
+
 /// Imports glTF, replaces the materials for --materials lambert, surveys. Logs what Blender warns of.
 /// Throws Error(invalid_input) where there is nothing with faces.
 [[nodiscard]] SurveyedScene survey_scene(Workspace& workspace);
