@@ -14,6 +14,7 @@ namespace rnmbake {
 namespace {
 
 constexpr BlenderVersion first_without_tilt_clamp{3, 6, 0};  // from there on only glossy closures are bent
+constexpr BlenderVersion first_that_retries{4, 0, 0};  // 3.4 does not, 4.3 does; what lies between is a guess
 constexpr BlenderVersion first_with_full_footprint{5, 0, 0};
 constexpr int enough_samples = 1 << 20;  // where only --error says when to stop
 
@@ -65,6 +66,7 @@ ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& sc
   const BlenderVersion version =
       blender_version_of(plan.blender_version, named ? config.provenance("blender_version") : "the scene");
   plan.footprint = footprint_of(wanted.footprint, version);
+  plan.past_edge = version < first_that_retries ? PastEdge::mirror : PastEdge::retry;
   plan.flat_normal_map = wanted.model == ReferenceSettings::Model::flat_normal_map;
   if (!wanted.faults.empty() && !plan.flat_normal_map) {
     fail(ExitCode::usage, "{}: the true model has no faults; add --model flat-normal-map",

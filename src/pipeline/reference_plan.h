@@ -13,8 +13,9 @@ namespace rnmbake {
 
 /// What is the same for all targets of a reference. Samples and seed come with each target's settings.
 struct ReferencePlan {
-  std::string blender_version;  // whose light units, footprint and faults
+  std::string blender_version;  // whose light units, footprint, edges and faults
   Footprint footprint = Footprint::half;
+  PastEdge past_edge = PastEdge::retry;
   bool flat_normal_map = false;  // the model
   RecipeFaults faults;           // of that model
   double error = 0;              // share of the mean; 0: off

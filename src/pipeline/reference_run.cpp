@@ -120,6 +120,7 @@ class ReferenceRun {
     }
     options.sh_order = plan_.sh;
     options.footprint = plan_.footprint;
+    options.past_edge = plan_.past_edge;
     options.samples = kind.samples;
     options.error = plan_.error;
     options.bounces = plan_.bounces;

@@ -38,7 +38,7 @@ class Job {
         index_(index),
         target_(target),
         options_(options),
-        sites_(*target.surface, target.width, target.height, options.footprint) {
+        sites_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
     if (options.faults.any()) own_.emplace(scene, target);
     for (const TexelSite& site : sites_.texels()) (is_black(site) ? black_ : texels_).push_back(site);
     for (std::size_t first = 0; first < texels_.size(); first += BlockGatherer::texels) {

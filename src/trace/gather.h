@@ -18,6 +18,11 @@ namespace rnmbake {
 /// What a texel averages over around its centre (clipped to the triangle that owns the texel).
 enum class Footprint { centre, half, full };  // half: Blender < 5, full: Blender >= 5
 
+/// What becomes of a place in the footprint that lies past the triangle's edge. mirror: it is folded back in,
+/// one barycentric weight after the other (Blender < 4); retry: up to ten others are tried, then the centre
+/// is taken (Blender >= 4).
+enum class PastEdge { mirror, retry };
+
 /// The errors of the published recipe, each of which the tracer can make too (docs/reference.md).
 struct RecipeFaults {
   bool tilt_clamp = false;       // Blender 3.4, 3.5: the closure's normal is bent towards the surface's
@@ -40,6 +45,7 @@ struct GatherOptions {
   std::vector<BasisDirection> directions;  // right-handed, Y up, in each texel's own frame
   int sh_order = 0;  // 1, 2 or 3: also 1, 4 or 9 SH coefficients of the incoming radiance
   Footprint footprint = Footprint::half;
+  PastEdge past_edge = PastEdge::retry;
   int samples = 256;  // paths for each texel; with `error` the most
   double error = 0;   // > 0: stop where the relative standard error of the target's texels (RMS over them,
                       // over their mean) is that small

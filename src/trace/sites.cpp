@@ -1,12 +1,16 @@
 #include "trace/sites.h"
 
 #include "scene/uv_raster.h"
+#include "trace/sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace rnmbake {
 namespace {
+
+constexpr int most_tries = 10;  // as in Cycles; then the texel's centre
 
 /// Interleaves bits: texels that are near each other get numbers that are near each other.
 std::uint32_t morton(std::uint32_t x, std::uint32_t y) {
@@ -31,9 +35,17 @@ float fold(float value, float limit) {
   return (static_cast<int>(whole) & 1) != 0 ? (1 - rest) * limit : rest * limit;
 }
 
+/// The next of a row of pairs without a pattern.
+Vec2 another(const Vec2& u) {
+  const std::uint64_t bits = hash_of(std::bit_cast<std::uint32_t>(u.x), std::bit_cast<std::uint32_t>(u.y));
+  const auto unit = [](std::uint64_t x) { return static_cast<float>(x & 0xffffffU) * 0x1p-24F; };
+  return {unit(bits >> 32), unit(bits)};
+}
+
 }  // namespace
 
-Sites::Sites(const Surface& surface, int width, int height, Footprint footprint) : surface_(surface) {
+Sites::Sites(const Surface& surface, int width, int height, Footprint footprint, PastEdge past_edge)
+    : surface_(surface), past_edge_(past_edge) {
   std::vector<Vec2> uv;
   uv.reserve(3 * surface.triangles.size());
   for (const SurfaceTriangle& triangle : surface.triangles) {
@@ -62,11 +74,26 @@ Sites::Sites(const Surface& surface, int width, int height, Footprint footprint)
   }
 }
 
-Place Sites::place(const TexelSite& texel, const Vec2& u) const {
-  const Slope& slope = slopes_[texel.triangle];
-  const Vec2 step = slope.along_x * (u.x - 0.5F) + slope.along_y * (u.y - 0.5F);
-  const float b1 = fold(texel.b1 + step.x, 1), b2 = fold(texel.b2 + step.y, 1 - b1), b0 = 1 - b1 - b2;
+Vec3 Sites::mirrored(const TexelSite& texel, const Vec2& u) const {
+  const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
+  // Cycles' order: the first corner's weight within 1, the second's within what is left, the third's the
+  // rest.
+  const float b0 = fold(1 - weights.x - weights.y, 1), b1 = fold(weights.x, 1 - b0);
+  return {b0, b1, std::max(0.0F, 1 - b0 - b1)};
+}
 
+Vec3 Sites::retried(const TexelSite& texel, Vec2 u) const {
+  for (int i = 0; i < most_tries; ++i) {
+    const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
+    const float b0 = 1 - weights.x - weights.y;
+    if (weights.x > 0 && weights.y > 0 && b0 > 0) return {b0, weights.x, weights.y};
+    u = another(u);
+  }
+  return {1 - texel.b1 - texel.b2, texel.b1, texel.b2};
+}
+
+Place Sites::place(const TexelSite& texel, const Vec2& u) const {
+  const auto [b0, b1, b2] = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
   const SurfaceTriangle& triangle = surface_.triangles[texel.triangle];
   const auto& [c0, c1, c2] = triangle.corners;
   Place place;

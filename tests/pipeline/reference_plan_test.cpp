@@ -44,6 +44,12 @@ TEST(ReferencePlan, FootprintIsThatOfTheBlenderComparedWith) {
   EXPECT_EQ(plan_reference(with({{"footprint", "centre"}}), "5.2.2").footprint, Footprint::centre);
 }
 
+TEST(ReferencePlan, PastAnEdgeItDoesAsTheBlenderComparedWith) {
+  EXPECT_EQ(plan_reference(with({}), "3.4.1").past_edge, PastEdge::mirror);
+  EXPECT_EQ(plan_reference(with({}), "4.3.2").past_edge, PastEdge::retry);
+  EXPECT_EQ(plan_reference(with({{"blender_version", "5.2"}}), "3.4.1").past_edge, PastEdge::retry);
+}
+
 TEST(ReferencePlan, TheTruthHasNoFaults) {
   const ReferencePlan plan = plan_reference(with({}), "3.4.1");
   EXPECT_FALSE(plan.flat_normal_map);
