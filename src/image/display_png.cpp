@@ -15,6 +15,10 @@ float srgb_encode(float linear) {
   return clamped <= 0.0031308F ? 12.92F * clamped : 1.055F * std::pow(clamped, 1 / 2.4F) - 0.055F;
 }
 
+float srgb_decode(float encoded) {
+  return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
 void write_display_png(const std::filesystem::path& file, const FloatImage& image, float exposure) {
   const float gain = std::exp2(exposure);
   std::vector<std::uint8_t> bytes;

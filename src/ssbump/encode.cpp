@@ -16,6 +16,10 @@ std::array<std::size_t, 3> places(Handed handed) {
   return handed == Handed::right ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{0, 2, 1};
 }
 
+std::size_t alpha_channel(SsbumpAlpha alpha) {
+  return alpha == SsbumpAlpha::up ? SsbumpWeights::up : SsbumpWeights::ambient;
+}
+
 /// An integer hash with full avalanche, as share of 1 (24 bits).
 float chance(std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
   std::uint32_t h = seed * 0x9E3779B9U + x * 0x85EBCA6BU + y * 0xC2B2AE35U + channel * 0x27D4EB2FU;
@@ -53,14 +57,16 @@ FloatImage encode(const FloatImage& weights, const SsbumpEncoding& encoding) {
 FloatImage decode_weights(const FloatImage& stored, const SsbumpEncoding& encoding) {
   const bool has_alpha = encoding.alpha != SsbumpAlpha::none;
   assert(stored.channels() >= (has_alpha ? 4 : 3));
+  const std::size_t alpha = alpha_channel(encoding.alpha);
   const float scale = 1 / flat_value(encoding.scale);
   const auto place = places(encoding.handed);
-  FloatImage weights(stored.width(), stored.height(), has_alpha ? 4 : 3);
+  FloatImage weights(stored.width(), stored.height(), SsbumpWeights::channels);
   const float* from = stored.data().data();
   for (float* to = weights.data().data(); to != weights.data().data() + weights.data().size();
-       to += weights.channels(), from += stored.channels()) {
+       to += SsbumpWeights::channels, from += stored.channels()) {
     for (std::size_t i = 0; i < 3; ++i) to[i] = scale * from[place[i]];
-    if (has_alpha) to[3] = from[3];
+    to[SsbumpWeights::up] = to[SsbumpWeights::ambient] = 1;
+    if (has_alpha) to[alpha] = from[3];
   }
   return weights;
 }

@@ -18,8 +18,8 @@ struct SsbumpEncoding {
 /// Weights (SsbumpWeights: five channels) to what the file holds: three channels, or four.
 [[nodiscard]] FloatImage encode(const FloatImage& weights, const SsbumpEncoding& encoding);
 
-/// The way back: weights of the three axes, right-handed, and the fourth channel where there is one; 1 in the
-/// open. Three channels of `stored` are read, a fourth if `encoding.alpha` says so.
+/// The way back, to SsbumpWeights: what the file does not hold of up and ambient is 1. Three channels of
+/// `stored` are read, a fourth if `encoding.alpha` says so.
 [[nodiscard]] FloatImage decode_weights(const FloatImage& stored, const SsbumpEncoding& encoding);
 
 /// Rounds values in [0, 1] to the steps of an integer format, up or down by chance so that the mean stays:

@@ -1,0 +1,45 @@
+// cli/ssbump_flags.h - the flags of `rnmbake ssbump INPUT`, turned into the options of a run.
+#pragma once
+
+#include "pipeline/ssbump_run.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace rnmbake {
+
+class SsbumpFlags {
+ public:
+  explicit SsbumpFlags(CLI::App& command);
+
+  /// Throws Error(usage) for values that contradict each other.
+  [[nodiscard]] SsbumpRunOptions options() const;
+
+  bool json = false;
+  std::filesystem::path input;
+
+ private:
+  void add_height_flags(CLI::App& command);
+  void add_surface_flags(CLI::App& command);
+  void add_method_flags(CLI::App& command);
+  void add_output_flags(CLI::App& command);
+  [[nodiscard]] HeightOptions height_options() const;
+  [[nodiscard]] std::optional<double> texels_high() const;
+  [[nodiscard]] GenerateOptions generate_options() const;
+  [[nodiscard]] SsbumpOutput output_options() const;
+
+  SsbumpRunOptions run_;
+  std::optional<double> height_, height_world_, texel_size_;
+  std::string wrap_ = "x,y", method_ = "horizon", scale_ = "third", handed_ = "right", alpha_ = "none", bits_;
+  bool alpha_ao_ = false;
+};
+
+/// "x,y", "x", "y", "none", "mirror", or one word for each axis such as "mirror,none". Throws Error(usage).
+void parse_wrap(const std::string& text, Beyond& x, Beyond& y);
+
+}  // namespace rnmbake
