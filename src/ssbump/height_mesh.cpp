@@ -20,6 +20,7 @@ std::vector<Line> lines_of(int count, Beyond beyond) {
   std::vector<Line> lines;
   const float skirt = skirt_periods * static_cast<float>(count);
   if (beyond == Beyond::none) lines.push_back({-skirt, 0});
+  if (beyond == Beyond::mirror) lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned
   for (int i = 0; i < count; ++i) lines.push_back({static_cast<float>(i), i});
   if (beyond == Beyond::none) lines.push_back({static_cast<float>(count - 1) + skirt, count - 1});
   if (beyond == Beyond::wrap) lines.push_back({static_cast<float>(count), 0});
