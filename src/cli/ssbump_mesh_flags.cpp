@@ -62,7 +62,9 @@ void add_mesh_flags(CLI::App& command, SsbumpMeshOptions& options, std::string& 
       ->group(group);
   command.add_flag("--allow-overlap", options.allow_overlap, "UVs of LOW may overlap; the last face wins")
       ->group(group);
-  command.add_option("--missing", missing, "texels without detail: from their neighbours, or alpha 0 [fill]")
+  command
+      .add_option("--missing", missing,
+                  "texels without detail: from their neighbours, or black with alpha 0 [fill]")
       ->check(CLI::IsMember({"fill", "mark"}).description(""))
       ->type_name("fill|mark")
       ->group(group);

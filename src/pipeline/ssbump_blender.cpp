@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int most_texels = 1024 * 1024;
+constexpr std::size_t finely_cut = 256 * 256;
 constexpr double lamp_distance = 50;  // sizes of the map
-constexpr float least_quad = 1e-4F;   // texels, half the side of a receiver
+constexpr float least_quad = 1e-5F;   // texels, half the side of a receiver
 constexpr float steps_across = 8;     // of floating point, half the side of a receiver at least
 /// Raw little-endian numbers in a file of the launch.
 class RawFile {
@@ -116,8 +117,15 @@ class PointReceivers {
   std::vector<Vec2> uvs_;
 };
 
+/// As fine as some millions of triangles allow.
+PatchCuts cuts_of(const HeightField& field) {
+  const std::size_t texels = field.heights.texels();
+  if (texels <= finely_cut) return PatchCuts::five;
+  return texels <= 4 * finely_cut ? PatchCuts::three : PatchCuts::one;
+}
+
 json write_surface(const HeightField& field, const fs::path& folder) {
-  const HeightMesh mesh = height_mesh(field);
+  const HeightMesh mesh = height_mesh(field, cuts_of(field));
   RawFile out(folder / "surface.bin");
   out.write(mesh.positions);
   out.write(mesh.triangles);

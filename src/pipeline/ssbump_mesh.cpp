@@ -256,17 +256,21 @@ void renormalize(FloatImage& normals) {
   }
 }
 
-/// Gives what has no value that of its neighbours: inside the faces without limit, outside `dilate` texels.
-void fill(SsbumpMesh& result, const SsbumpMeshOptions& options) {
-  MeshOcclusion& maps = result.maps;
-  result.alpha = options.missing == SsbumpMeshOptions::Missing::fill ? maps.covered : maps.found;
-  const TexelMask found = covered_mask(maps.found);
-  TexelMask gaps = covered_mask(maps.covered);
-  for (std::size_t i = 0; i < gaps.size(); ++i) gaps[i] = gaps[i] != 0 && found[i] == 0 ? 1 : 0;
+/// Gives what has no value that of its neighbours: inside the faces without limit, unless it is to be marked,
+/// outside `dilate` texels.
+void fill(MeshOcclusion& maps, const SsbumpMeshOptions& options) {
+  TexelMask valued = covered_mask(maps.found);
+  TexelMask gaps = covered_mask(maps.covered), outside = gaps;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    outside[i] = gaps[i] == 0 ? 1 : 0;
+    gaps[i] = gaps[i] != 0 && valued[i] == 0 ? 1 : 0;
+  }
+  const bool mark = options.missing == SsbumpMeshOptions::Missing::mark;
   for (FloatImage* image : {&maps.weights.image, &maps.normal, &maps.height}) {
-    if (options.missing == SsbumpMeshOptions::Missing::fill)
-      fill_from_neighbours(*image, found, gaps, std::numeric_limits<std::size_t>::max());
-    dilate(*image, result.alpha, options.dilate);
+    if (!mark) fill_from_neighbours(*image, valued, gaps, std::numeric_limits<std::size_t>::max());
+    TexelMask filled = valued;
+    for (std::size_t i = 0; i < filled.size() && !mark; ++i) filled[i] |= gaps[i];
+    fill_from_neighbours(*image, std::move(filled), outside, static_cast<std::size_t>(options.dilate));
   }
   renormalize(maps.normal);
 }
@@ -297,7 +301,7 @@ SsbumpMesh measure_ssbump_mesh(Workspace& workspace, const SsbumpMeshOptions& op
             measured.rays, result.cage);
   result.maps = measure(meshes, measured);
   report_misses(result);
-  fill(result, options);
+  fill(result.maps, options);
   return result;
 }
 

@@ -20,14 +20,13 @@ struct SsbumpMeshOptions {
   std::vector<std::string> low_objects{"*"};   // patterns, for the files of `onto`
   std::string uv;                              // layer of the low objects; "": the active-render one
   bool allow_overlap = false;                  // of UVs: the last face wins
-  Missing missing = Missing::fill;             // texels without detail: from their neighbours, or alpha 0
-  int dilate = 8;                              // texels beyond the faces
-  MeshOcclusionOptions measure;                // cage 0: default_cage()
+  Missing missing = Missing::fill;  // texels without detail: from their neighbours, or 0 in every channel
+  int dilate = 8;                   // texels beyond the faces
+  MeshOcclusionOptions measure;     // cage 0: default_cage()
 };
 
 struct SsbumpMesh {
   MeshOcclusion maps;                // weights, normal and height filled and dilated
-  FloatImage alpha;                  // one channel, 0 or 1: texels that stand for a surface
   std::vector<std::string> objects;  // the low ones, keys; MeshOcclusion::surfaces in the same order
   double cage = 0;                   // that was used
   std::string blender_version;       // that read the meshes

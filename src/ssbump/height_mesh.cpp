@@ -10,13 +10,15 @@ constexpr double reach_of_range = 64;
 constexpr int most_periods = 16;
 constexpr float skirt_periods = 1000;
 
-/// A row or column of vertices: where it stands, and whose heights it has.
+/// A row or column of vertices: where it stands, and between which texels.
 struct Line {
   float place = 0;
-  int texel = 0;
+  int first = 0, second = 0;
+  float share = 0;  // of the second
 };
 
-std::vector<Line> lines_of(int count, Beyond beyond) {
+/// Of whole texels; the ones on both ends belong to what lies beyond.
+std::vector<Line> texel_lines(int count, Beyond beyond) {
   std::vector<Line> lines;
   const float skirt = skirt_periods * static_cast<float>(count);
   if (beyond == Beyond::none) lines.push_back({-skirt, 0});
@@ -26,6 +28,35 @@ std::vector<Line> lines_of(int count, Beyond beyond) {
   if (beyond == Beyond::wrap) lines.push_back({static_cast<float>(count), 0});
   if (beyond == Beyond::mirror) lines.push_back({static_cast<float>(count), count - 1});
   return lines;
+}
+
+/// Where the cells of a patch begin.
+std::vector<float> cells_of(PatchCuts cuts) {
+  constexpr float narrow = 1.0F / 32;
+  if (cuts == PatchCuts::one) return {0};
+  if (cuts == PatchCuts::three) return {0, narrow, 1 - narrow};
+  return {0, narrow, 0.25F, 0.75F, 1 - narrow};
+}
+
+std::vector<Line> lines_of(int count, Beyond beyond, PatchCuts cuts) {
+  const std::vector<Line> whole = texel_lines(count, beyond);
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
+    const Line &a = whole[i], &b = whole[i + 1];
+    // What goes on as it is needs no cut.
+    for (const float share : cells_of(a.first == b.first ? PatchCuts::one : cuts))
+      lines.push_back({a.place + share * (b.place - a.place), a.first, b.first, share});
+  }
+  lines.push_back(whole.back());
+  lines.back().second = lines.back().first;
+  return lines;
+}
+
+float height_of(const FloatImage& heights, const Line& column, const Line& row) {
+  const auto across = [&](int y) {
+    return std::lerp(heights.texel(column.first, y)[0], heights.texel(column.second, y)[0], column.share);
+  };
+  return std::lerp(across(row.first), across(row.second), row.share);
 }
 
 struct Placed {
@@ -52,13 +83,13 @@ std::vector<Placed> placed(int count, Beyond beyond, double reach) {
 
 }  // namespace
 
-HeightMesh height_mesh(const HeightField& field) {
-  const std::vector<Line> columns = lines_of(field.width(), field.x),
-                          rows = lines_of(field.height(), field.y);
+HeightMesh height_mesh(const HeightField& field, PatchCuts cuts) {
+  const std::vector<Line> columns = lines_of(field.width(), field.x, cuts);
+  const std::vector<Line> rows = lines_of(field.height(), field.y, cuts);
   HeightMesh mesh;
   for (const Line& row : rows) {
     for (const Line& column : columns)
-      mesh.positions.emplace_back(column.place, -row.place, field.heights.texel(column.texel, row.texel)[0]);
+      mesh.positions.emplace_back(column.place, -row.place, height_of(field.heights, column, row));
   }
   const auto across = static_cast<std::uint32_t>(columns.size());
   for (std::uint32_t y = 0; y + 1 < rows.size(); ++y) {

@@ -21,8 +21,8 @@ HeightField random_field(int width, int height, Beyond x, Beyond y, float amplit
 }
 
 /// All copies as one mesh; fronts stay up where a copy is mirrored.
-HighMesh all_copies(const HeightField& field, double reach) {
-  const HeightMesh mesh = height_mesh(field);
+HighMesh all_copies(const HeightField& field, double reach, PatchCuts cuts = PatchCuts::one) {
+  const HeightMesh mesh = height_mesh(field, cuts);
   HighMesh high;
   for (const HeightCopy& copy : height_copies(field, reach)) {
     for (const auto& triangle : mesh.triangles) {
@@ -53,7 +53,7 @@ float height_at(const HeightField& field, int x, int y) {
 TEST(HeightMesh, CopiesGoOnBeyondEveryBorder) {
   for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
     const HeightField field = random_field(5, 3, beyond, Beyond::wrap);
-    const TriangleTree tree(all_copies(field, 8).position);
+    const TriangleTree tree(all_copies(field, 8, PatchCuts::three).position);
     for (int y = -6; y < 9; ++y) {
       for (int x = -6; x < 11; ++x) {
         const auto hit = tree.first(Vec3(float(x), float(-y), 100), Vec3(0, 0, -1), 0, 1000);
@@ -72,14 +72,25 @@ TEST(HeightMesh, CopiesGoOnBeyondEveryBorder) {
   }
 }
 
+TEST(HeightMesh, CellsLieOnTheBilinearSurface) {
+  const HeightField field = random_field(4, 4, Beyond::wrap, Beyond::wrap);
+  const TriangleTree tree(all_copies(field, 1, PatchCuts::five).position);
+  for (const float u : {0.0F, 1.0F / 32, 0.25F, 0.5F, 0.75F, 31.0F / 32, 1.0F}) {
+    const float a = field.heights.texel(1, 1)[0], b = field.heights.texel(2, 1)[0],
+                c = field.heights.texel(1, 2)[0], d = field.heights.texel(2, 2)[0];
+    const auto hit = tree.first(Vec3(1 + u, -1 - u, 100), Vec3(0, 0, -1), 0, 1000);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(100 - hit->distance, std::lerp(std::lerp(a, b, u), std::lerp(c, d, u), u), 1e-4) << u;
+  }
+}
+
 TEST(HeightMesh, TrianglesFaceUp) {
   const HeightField field = random_field(4, 4, Beyond::mirror, Beyond::none);
   const HighMesh high = all_copies(field, 4);
   for (const Vec3& normal : high.normal) EXPECT_GT(normal.z, 0);
 }
 
-/// Tilted planes between the samples are the same surface for both definitions: heights that do not change
-/// along y make every patch a plane.
+/// Heights that do not change along y make every patch a plane: the very same surface.
 TEST(HeightMesh, AsAMeshItHasTheWeightsOfTheHeightField) {
   HeightField field = random_field(16, 8, Beyond::wrap, Beyond::none, 3);
   for (int y = 1; y < field.height(); ++y) {

@@ -1,0 +1,201 @@
+// rnmbake ssbump with Blender: meshes read from files, and height maps baked by Cycles. Scenes:
+// scenes/ssbump_cases.py.
+#include "base/error.h"
+#include "config/resolve.h"
+#include "pipeline/late_blender.h"
+#include "pipeline/ssbump_blender.h"
+#include "pipeline/ssbump_mesh.h"
+#include "pipeline/workspace.h"
+#include "ssbump/generate.h"
+#include "with_blender/survey_session.h"
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The meshes, built once for all tests, and a Blender to read them.
+class SsbumpFiles : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    session_ = new SurveySession;
+    session_->build("ssbump_cases.py", {session_->file("").string()});
+  }
+  static void TearDownTestSuite() {
+    delete session_;
+    session_ = nullptr;
+  }
+
+  static fs::path file(const std::string& name) { return session_->file(name); }
+
+  static SsbumpMesh measure(const SsbumpMeshOptions& options) {
+    const ResolvedConfig config = resolve({}, {}, {});
+    LateBlender blender(config.globals);
+    Workspace workspace(config, blender);
+    return measure_ssbump_mesh(workspace, options);
+  }
+
+  static SsbumpMeshOptions options_for(const std::string& high, const std::vector<std::string>& onto) {
+    SsbumpMeshOptions options;
+    options.high = file(high);
+    options.onto = onto;
+    options.measure.width = options.measure.height = 16;
+    options.measure.cage = 0.5;
+    return options;
+  }
+
+  static std::string refusal(const SsbumpMeshOptions& options) {
+    try {
+      (void)measure(options);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::invalid_input);
+      return error.what();
+    }
+    return "";
+  }
+
+  static SurveySession* session_;
+};
+
+SurveySession* SsbumpFiles::session_ = nullptr;
+
+/// Of a channel over all texels, with the standard error of the mean.
+std::pair<double, double> mean_of(const FloatImage& image, std::size_t channel) {
+  double sum = 0, squares = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const double value = image.texel(x, y)[channel];
+      sum += value;
+      squares += value * value;
+    }
+  }
+  const auto count = double(image.texels());
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
+}
+
+TEST_F(SsbumpFiles, EveryFormatGivesTheWallsClosedForm) {
+  const double lune =
+      (1 - std::sqrt(2.0 / 3)) / (1 + std::sqrt(1.0 / 3));  // tests/ssbump/mesh_occlusion_test.cpp
+  for (const char* ending : {".blend", ".glb", ".obj"}) {
+    const fs::path low = file(std::string("low") + ending);
+    if (!fs::exists(low)) {
+      GTEST_LOG_(WARNING) << "this Blender writes no " << ending << ": not tested";
+      continue;
+    }
+    const SsbumpMesh mesh = measure(options_for(std::string("detail") + ending, {low.string()}));
+    ASSERT_EQ(mesh.objects.size(), 1U) << ending;
+    EXPECT_EQ(mesh.maps.surfaces[0].texels, 256U) << ending;
+    EXPECT_EQ(mesh.maps.surfaces[0].missed, 0U) << ending;
+    const auto [right, right_error] = mean_of(mesh.maps.weights.image, 0);
+    EXPECT_NEAR(right, lune, 4 * right_error) << ending;
+    const auto [up, up_error] = mean_of(mesh.maps.weights.image, SsbumpWeights::up);
+    EXPECT_NEAR(up, 0.5, 4 * up_error) << ending;
+    const auto [left, left_error] = mean_of(mesh.maps.weights.image, 1);
+    EXPECT_GT(left, right + 0.3) << ending;
+  }
+}
+
+TEST_F(SsbumpFiles, BothMeshesMayLieInOneFile) {
+  const SsbumpMesh mesh = measure([] {
+    SsbumpMeshOptions options = options_for("both.blend", {"low"});
+    options.high_objects = {"det*"};
+    return options;
+  }());
+  EXPECT_EQ(mesh.objects, std::vector<std::string>{"low"});
+  EXPECT_EQ(mesh.maps.surfaces[0].missed, 0U);
+}
+
+TEST_F(SsbumpFiles, WhatCannotBeMeasuredIsNamed) {
+  SsbumpMeshOptions options = options_for("both.blend", {"bare"});
+  options.high_objects = {"detail"};
+  EXPECT_NE(refusal(options).find("object 'bare' has no UVs"), std::string::npos) << refusal(options);
+  options.onto = {"twice"};
+  EXPECT_NE(refusal(options).find("UVs of object 'twice' overlap each other"), std::string::npos);
+  options.onto = {"low", "twice"};
+  EXPECT_NE(refusal(options).find("'twice'"), std::string::npos);
+  options.onto = {"far"};
+  EXPECT_NE(refusal(options).find("Raise --cage"), std::string::npos) << refusal(options);
+  options.onto = {"twice"};
+  options.allow_overlap = true;
+  EXPECT_EQ(measure(options).maps.surfaces[0].missed, 0U);
+}
+
+/// A bump and a dip, smooth, wrapped.
+HeightField waves(int side) {
+  HeightField field;
+  field.heights = FloatImage(side, side, 1);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      field.heights.texel(x, y)[0] =
+          static_cast<float>(1.5 * std::sin(2 * pi * x / side) * std::cos(2 * pi * y / side));
+    }
+  }
+  return field;
+}
+
+SsbumpWeights bake(const HeightField& field, SsbumpBlenderOptions::Lights lights) {
+  const ResolvedConfig config = resolve({}, {}, {});
+  LateBlender blender(config.globals);
+  Workspace workspace(config, blender);
+  SsbumpBlenderOptions options;
+  options.lights = lights;
+  options.samples = 1024;
+  return bake_height_map(workspace, field, options);
+}
+
+TEST(SsbumpBlender, TheSkyAgreesWithTheHorizon) {
+  const HeightField field = waves(12);
+  const SsbumpWeights cycles = bake(field, SsbumpBlenderOptions::Lights::sky);
+  const SsbumpWeights horizon = generate(field, {});
+  for (std::size_t channel = 0; channel < SsbumpWeights::channels; ++channel) {
+    double squares = 0, sum = 0;
+    for (std::size_t i = channel; i < cycles.image.data().size(); i += SsbumpWeights::channels) {
+      // A weight s is at worst the mean of 1024 draws of 0 or 1.
+      const double s = horizon.image.data()[i], error = std::sqrt(std::max(s * (1 - s), 1e-3) / 1024);
+      const double off = cycles.image.data()[i] - s;
+      EXPECT_LT(std::abs(off), 5 * error) << i;
+      squares += off * off / (error * error);
+      sum += off;
+    }
+    const auto texels = double(field.heights.texels());
+    EXPECT_LT(squares / texels, 1.5) << channel;
+    EXPECT_LT(std::abs(sum / texels), 0.003) << channel;
+  }
+}
+
+TEST(SsbumpBlender, NothingShadesAFlatMap) {
+  HeightField field;
+  field.heights = FloatImage(5, 3, 1);
+  for (const auto lights : {SsbumpBlenderOptions::Lights::sky, SsbumpBlenderOptions::Lights::area}) {
+    const SsbumpWeights weights = bake(field, lights);
+    for (const float weight : weights.image.data()) EXPECT_NEAR(weight, 1, 1e-5);
+  }
+}
+
+TEST(SsbumpBlender, AreaLightsOrderTexelsAsTheHorizonDoes) {
+  const HeightField field = waves(12);
+  const SsbumpWeights lamps = bake(field, SsbumpBlenderOptions::Lights::area), horizon = generate(field, {});
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const std::size_t n = field.heights.texels();
+    double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = lamps.image.data()[i * SsbumpWeights::channels + channel];
+      const double y = horizon.image.data()[i * SsbumpWeights::channels + channel];
+      a += x, b += y, aa += x * x, bb += y * y, ab += x * y;
+    }
+    const auto count = double(n);
+    const double correlation = (ab - a * b / count) / std::sqrt((aa - a * a / count) * (bb - b * b / count));
+    EXPECT_GT(correlation, 0.8) << channel;
+  }
+}
+
+}  // namespace
+}  // namespace rnmbake
