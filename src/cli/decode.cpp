@@ -6,6 +6,7 @@
 #include "image/display_png.h"
 #include "image/layered_exr.h"
 #include "lightmap/decode.h"
+#include "pipeline/decode_ssbump.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,7 +24,8 @@ namespace rnmbake {
 namespace {
 
 struct DecodeOptions {
-  std::filesystem::path lightmap, normal_map, output;
+  std::filesystem::path lightmap, normal_map, ssbump, output;
+  std::string ssbump_scale, ssbump_handed;
   std::vector<float> normal_vector;               // three numbers, unless there is a normal map
   std::string variant = "squared", normal_green;  // no green: not said, taken as y-up
   bool flip_green = false, force = false;
@@ -79,7 +81,7 @@ void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
     if (!options.force) refuse(options, *why, "choose another --variant, or add --force");
     log::warn("{}: {}; decoded all the same", options.lightmap.string(), *why);
   }
-  const bool uses_normal = variant_of(options) != DecodeVariant::single;
+  const bool uses_normal = variant_of(options) != DecodeVariant::single && options.ssbump.empty();
   if (uses_normal && options.normal_green.empty() && metadata.green == Green::y_down && !options.force) {
     refuse(options, "it was baked for y-down normal maps and the normals are taken as y-up",
            "say --normal-green y-down (or --flip-green) or --normal-green y-up");
@@ -88,6 +90,10 @@ void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
 
 FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
   const DecodeVariant variant = variant_of(options);
+  if (!options.ssbump.empty()) {
+    const SsbumpTold told{scale_named(options.ssbump_scale), handed_named(options.ssbump_handed), {}};
+    return decode_ssbump(std::move(lightmap), read_ssbump(options.ssbump, told), variant);
+  }
   if (options.normal_map.empty()) {
     const auto& n = options.normal_vector;
     return decode(std::move(lightmap), Vec3(n[0], n[1], n[2]), green_of(options), variant);
@@ -111,13 +117,18 @@ void write(const DecodeOptions& options, FloatImage&& picture) {
   for (float& value : picture.data()) value *= gain;
   LayeredImage image;
   image.layers.push_back({"", {"R", "G", "B"}, std::move(picture)});
-  image.attributes["rnmbake:decoded"] = options.variant;
+  image.attributes["rnmbake:decoded"] =
+      options.ssbump.empty() ? options.variant : "ssbump, " + options.variant;
   image.attributes["rnmbake:exposure"] = options.exposure;
   write_exr(options.output, image, Depth::full);
 }
 
 void check_vector(const std::vector<float>& n) {
-  if (n.empty()) fail(ExitCode::usage, "decode needs normals; give --normal FILE or --normal-vector X,Y,Z");
+  if (n.empty()) {
+    fail(ExitCode::usage,
+         "decode needs normals or a self-shadowed bump map; give --normal FILE, --normal-vector X,Y,Z or "
+         "--ssbump FILE");
+  }
   const float length = n.size() == 3 ? Vec3(n[0], n[1], n[2]).length() : 0;
   if (length > 0 && std::isfinite(length)) return;
   fail(ExitCode::usage, "--normal-vector {} is not a direction; give three numbers such as 0,0,1",
@@ -129,7 +140,14 @@ void check_options(DecodeOptions& options) {
   if (extension != ".exr" && extension != ".png") {
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", options.output.string());
   }
-  if (options.normal_map.empty()) check_vector(options.normal_vector);
+  if (options.normal_map.empty() && options.ssbump.empty()) check_vector(options.normal_vector);
+  const bool fits_ssbump = options.variant == "squared" || options.variant == "vrad";
+  if (!options.ssbump.empty() && !fits_ssbump) {
+    fail(ExitCode::usage,
+         "--variant {} is for normals; with --ssbump maps are taken as they are (squared) or scaled to the "
+         "flat bake (vrad)",
+         options.variant);
+  }
   if (options.flip_green) options.normal_green = "y-down";
 }
 
@@ -157,6 +175,21 @@ void add_pictures(CLI::App& command, DecodeOptions& options) {
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->excludes(normal_map);
+  auto* ssbump =
+      command
+          .add_option("--ssbump", options.ssbump,
+                      "or a self-shadowed bump map: E = sum of s_i LM_i, in the lightmap's UV layout")
+          ->type_name("FILE")
+          ->excludes(normal_map)
+          ->excludes(command.get_option("--normal-vector"));
+  command.add_option("--ssbump-scale", options.ssbump_scale, "of a map that does not say its scale [third]")
+      ->check(CLI::IsMember({"third", "ndotb", "mod2x"}).description(""))
+      ->type_name("third|ndotb|mod2x")
+      ->needs(ssbump);
+  command.add_option("--ssbump-handed", options.ssbump_handed, "of a map that does not say [right]")
+      ->check(CLI::IsMember({"right", "left"}).description(""))
+      ->type_name("right|left")
+      ->needs(ssbump);
   command
       .add_option("-o,--output", options.output,
                   "what to write: .exr (E/pi, float) or .png (to look at: clamped to [0,1] and sRGB-encoded)")
@@ -187,7 +220,8 @@ void add_meaning(CLI::App& command, DecodeOptions& options) {
 
 std::function<int()> add_decode_command(CLI::App& app) {
   auto options = std::make_shared<DecodeOptions>();
-  CLI::App* command = app.add_subcommand("decode", "Light a normal map with a lightmap, as a shader would");
+  CLI::App* command = app.add_subcommand(
+      "decode", "Light a normal map or a self-shadowed bump map with a lightmap, as a shader would");
   add_pictures(*command, *options);
   add_meaning(*command, *options);
   command->add_option("--exposure", options->exposure, "multiply the result by 2^STOPS [0]")

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "cli/ssbump_flags.h"
 #include "cli/ssbump_tools.h"
+#include "pipeline/ssbump_mesh_files.h"
 #include "process/stop.h"
 
 #include <array>
@@ -25,6 +26,7 @@ constexpr const char* examples =
     "  rnmbake ssbump depth.exr --invert --height-world 0.2 --texel-size 0.004 -o wall.exr\n"
     "  rnmbake ssbump bricks_height.png --alpha up --normal bricks_n.png -o bricks_ssbump.png\n"
     "  rnmbake ssbump trim.png --wrap x --filter-radius 0 --bits 16 -o trim.png\n"
+    "  rnmbake ssbump --from-mesh statue_high.glb --onto statue_low.glb -o statue_ssbump.png\n"
     "  rnmbake ssbump info bricks_ssbump.png            what a map holds\n"
     "  rnmbake ssbump compress-check bricks_ssbump.png  what BC1, RGB565 and BC7 would do to it";
 
@@ -52,21 +54,21 @@ nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunS
   return json;
 }
 
+SsbumpRunSummary made(const SsbumpFlags& flags, const SsbumpRunOptions& options) {
+  if (flags.from_mesh()) return write_ssbump_mesh(flags.measure(), options);
+  Progress progress("ssbump", progress_for(log::is_quiet(), log::is_jsonl()));
+  return run_ssbump(options, progress);
+}
+
 int run(const SsbumpFlags& flags) {
   const SsbumpRunOptions options = flags.options();
   StopRequest::install();
-  SsbumpRunSummary summary;
-  {
-    Progress progress("ssbump", progress_for(log::is_quiet(), log::is_jsonl()));
-    summary = run_ssbump(options, progress);
-  }
+  const SsbumpRunSummary summary = made(flags, options);
   if (flags.json) {
     std::cout << json_of(options, summary).dump(2) << '\n';
   } else {
-    log::info("{}: {} x {}, heights up to {:.4g} texels, ambient occlusion {:.3f} on average",
-              options.output.file.string(), summary.width, summary.height,
-              (summary.heights.highest - summary.heights.lowest) * summary.heights.texels,
-              summary.ranges.back().mean);
+    log::info("{}: {} x {}, {:.1f} % of the sky is open on average", options.output.file.string(),
+              summary.width, summary.height, 100 * summary.ranges.back().mean);
   }
   return static_cast<int>(ExitCode::ok);
 }

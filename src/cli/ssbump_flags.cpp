@@ -48,7 +48,7 @@ void parse_wrap(const std::string& text, Beyond& x, Beyond& y) {
   y = *second;
 }
 
-SsbumpFlags::SsbumpFlags(CLI::App& command) {
+SsbumpFlags::SsbumpFlags(CLI::App& command) : meshes_(command) {
   command.add_option("input", input, "height map: .png, .tga, .tif, .jpg, .exr, ...")->type_name("FILE");
   add_height_flags(command);
   add_surface_flags(command);
@@ -106,9 +106,9 @@ void SsbumpFlags::add_method_flags(CLI::App& command) {
   command
       .add_option("--method", method_,
                   "horizon: sweep, exact but for the number of azimuths; trace: rays, the same without bias; "
-                  "cone: open share of a 120-degree cone about each axis [horizon]")
-      ->check(one_of({"horizon", "trace", "cone"}))
-      ->type_name("horizon|trace|cone");
+                  "cone: open share of a 120-degree cone about each axis; blender: baked by Cycles [horizon]")
+      ->check(one_of({"horizon", "trace", "cone", "blender"}))
+      ->type_name("horizon|trace|cone|blender");
   command.add_option("--azimuths", run_.generate.azimuths, "of the horizon [64]")
       ->check(CLI::Range(4, 1024).description(""))
       ->type_name("N");
@@ -199,25 +199,40 @@ SsbumpOutput SsbumpFlags::output_options() const {
   return output;
 }
 
-SsbumpRunOptions SsbumpFlags::options() const {
-  if (input.empty()) fail(ExitCode::usage, "no height map given; see 'rnmbake ssbump --help'");
-  if (run_.output.file.empty())
-    fail(ExitCode::usage, "nowhere to write to; pass -o FILE.png, .tga, .tif or .exr");
-  if (run_.filter_edge && !(*run_.filter_edge > 0 && std::isfinite(*run_.filter_edge)))
-    fail(ExitCode::usage, "--edge-threshold {:g} lets nothing mix; give a number above 0, or -f 0",
-         *run_.filter_edge);
-  SsbumpRunOptions options = run_;
-  options.input = input;
-  options.heights = height_options();
-  options.generate = generate_options();
-  options.output = output_options();
-  std::vector<std::filesystem::path> files{input};
+SsbumpRays SsbumpFlags::rays() const {
+  const GenerateOptions& generate = run_.generate;
+  return {generate.rays, generate.power, generate.seed, generate.threads};
+}
+
+void SsbumpFlags::check_files(const SsbumpRunOptions& options) const {
+  std::vector<std::filesystem::path> files{input.lexically_normal()};
   for (const auto& file : {options.output.file, options.normal, options.dump_height}) {
     if (file.empty()) continue;
     if (std::ranges::count(files, file.lexically_normal()) > 0)
       fail(ExitCode::usage, "{} is named twice; give every file its own name", file.string());
     files.push_back(file.lexically_normal());
+    (void)storage_of(file, options.output.bits);
   }
+}
+
+SsbumpRunOptions SsbumpFlags::options() const {
+  meshes_.check(!input.empty());
+  if (input.empty() && !from_mesh())
+    fail(ExitCode::usage, "no height map given; see 'rnmbake ssbump --help'");
+  if (run_.output.file.empty())
+    fail(ExitCode::usage, "nowhere to write to; pass -o FILE.png, .tga, .tif or .exr");
+  if (run_.filter_edge && !(*run_.filter_edge > 0 && std::isfinite(*run_.filter_edge))) {
+    fail(ExitCode::usage, "--edge-threshold {:g} lets nothing mix; give a number above 0, or -f 0",
+         *run_.filter_edge);
+  }
+  SsbumpRunOptions options = run_;
+  options.input = input;
+  options.heights = height_options();
+  options.generate = generate_options();
+  options.output = output_options();
+  if (method_ == "blender")
+    options.baked = [this](const HeightField& field) { return meshes_.bake(field, rays()); };
+  check_files(options);
   return options;
 }
 

@@ -1,6 +1,7 @@
 // cli/ssbump_flags.h - the flags of `rnmbake ssbump INPUT`, turned into the options of a run.
 #pragma once
 
+#include "cli/ssbump_mesh_flags.h"
 #include "pipeline/ssbump_run.h"
 
 #include <filesystem>
@@ -20,6 +21,10 @@ class SsbumpFlags {
   /// Throws Error(usage) for values that contradict each other.
   [[nodiscard]] SsbumpRunOptions options() const;
 
+  /// Whether detail comes from a mesh, and that mesh measured.
+  [[nodiscard]] bool from_mesh() const { return meshes_.from_mesh(); }
+  [[nodiscard]] SsbumpMesh measure() const { return meshes_.measure(rays()); }
+
   bool json = false;
   std::filesystem::path input;
 
@@ -33,6 +38,10 @@ class SsbumpFlags {
   [[nodiscard]] GenerateOptions generate_options() const;
   [[nodiscard]] SsbumpOutput output_options() const;
 
+  [[nodiscard]] SsbumpRays rays() const;
+  void check_files(const SsbumpRunOptions& options) const;
+
+  SsbumpMeshFlags meshes_;
   SsbumpRunOptions run_;
   std::optional<double> height_, height_world_, texel_size_;
   std::string wrap_ = "x,y", method_ = "horizon", scale_ = "third", handed_ = "right", alpha_ = "none", bits_;

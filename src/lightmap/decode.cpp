@@ -131,9 +131,19 @@ LightmapDecoder::LightmapDecoder(Lightmap lightmap, DecodeVariant variant)
     normalize_to_flat({&lightmap_.rnm[0], &lightmap_.rnm[1], &lightmap_.rnm[2]}, lightmap_.flat);
 }
 
+std::array<Tap, 4> LightmapDecoder::taps_at(const Vec2& uv) const {
+  const auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
+  return lightmap_.coverage.empty() ? taps : covered_taps(taps, lightmap_.coverage);
+}
+
+LightmapDecoder::Maps LightmapDecoder::maps_at(const Vec2& uv) const {
+  const auto taps = taps_at(uv);
+  const auto of = [&](const FloatImage& map) { return map.empty() ? Vec3(0) : colour(map, taps); };
+  return {{of(lightmap_.rnm[0]), of(lightmap_.rnm[1]), of(lightmap_.rnm[2])}, of(lightmap_.flat)};
+}
+
 Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
-  auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
-  if (!lightmap_.coverage.empty()) taps = covered_taps(taps, lightmap_.coverage);
+  const auto taps = taps_at(uv);
   if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
   const std::array<Vec3, 3> maps{colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps),
                                  colour(lightmap_.rnm[2], taps)};

@@ -96,29 +96,40 @@ class Run {
     if (!options_.dump_height.empty()) dump_height();
     if (!options_.normal.empty()) write_normals();
     map_ = std::make_unique<SsbumpFile>(options_.output, metadata(), field_.width(), field_.height());
+    if (options_.baked) {
+      progress_.update(kFilteredUntil, "Cycles");
+      write_weights(0, options_.baked(field_).image);
+    } else {
+      generate_map();
+    }
+    check_stop();
+  }
+
+  void generate_map() {
     GenerateOptions generate = options_.generate;
     if (!albedo_.empty()) generate.albedo_map = &albedo_;
     generate_rows(
         field_, generate,
-        [&](int first_row, const SsbumpWeights& rows) {
-          if (albedo_.empty() || !options_.modulate) return map_->write(first_row, rows.image);
-          FloatImage modulated = rows.image;
-          modulate_rows(modulated, albedo_, first_row);
-          map_->write(first_row, modulated);
-        },
+        [&](int first_row, const SsbumpWeights& rows) { write_weights(first_row, rows.image); },
         [&](double share) { progress_.update(kFilteredUntil + share * (1 - kFilteredUntil), "generating"); },
         [] { return StopRequest::requested(); });
-    check_stop();
+  }
+
+  void write_weights(int first_row, const FloatImage& rows) {
+    if (albedo_.empty() || !options_.modulate) return map_->write(first_row, rows);
+    FloatImage modulated = rows;
+    modulate_rows(modulated, albedo_, first_row);
+    map_->write(first_row, modulated);
   }
 
   [[nodiscard]] SsbumpMetadata metadata() const {
     SsbumpMetadata metadata;
     const GenerateOptions& generate = options_.generate;
     metadata.power = generate.method == SsbumpMethod::cone ? 1 : generate.power;
-    metadata.method = name_of(generate.method);
+    metadata.method = options_.baked ? "blender" : name_of(generate.method);
     metadata.settings = fmt::format("height {:g} texels", summary_.heights.texels);
     if (options_.filter_radius > 0) metadata.settings += fmt::format(", filter {}", options_.filter_radius);
-    metadata.settings += generate.method == SsbumpMethod::horizon
+    metadata.settings += generate.method == SsbumpMethod::horizon && !options_.baked
                              ? fmt::format(", azimuths {}", generate.azimuths)
                              : fmt::format(", rays {}", generate.rays);
     if (generate.bounces > 0) metadata.settings += fmt::format(", bounces {}", generate.bounces);

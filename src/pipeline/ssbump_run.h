@@ -7,6 +7,7 @@
 #include "ssbump/read_heights.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,8 +21,10 @@ struct SsbumpRunOptions {
   int filter_radius = 10;             // 0: the heights as they are
   std::optional<double> filter_edge;  // in the file's values; none given: 3 % of their range
   GenerateOptions generate;           // its albedo_map is filled in
-  std::filesystem::path albedo;       // a colour texture of the map's size; may be empty
-  bool modulate = true;               // whether the albedo's luminance multiplies the weights
+  /// What makes the weights instead of `generate`; empty where that does. Called once.
+  std::function<SsbumpWeights(const HeightField&)> baked;
+  std::filesystem::path albedo;  // a colour texture of the map's size; may be empty
+  bool modulate = true;          // whether the albedo's luminance multiplies the weights
   SsbumpOutput output;
   std::filesystem::path normal, dump_height;  // may be empty
 };

@@ -31,12 +31,14 @@ Parts parts_of(const SsbumpMetadata& metadata) {
           {"order", metadata.handed == Handed::right ? "right, upper left, lower left"
                                                      : "right, lower left, upper left"},
           {"flat", fmt::format("{:.6f}", flat_value(metadata.scale))},
+          {"colour", "data"},
           {"method", metadata.method},
           {"settings", metadata.settings}};
 }
 
 /// "scale=third" of "...; scale=third; ..." for each part; what is no such pair is passed over.
-std::map<std::string, std::string> parsed(const std::string& description) {
+std::map<std::string, std::string> parsed(std::string description) {
+  std::erase(description, '\n');  // TGA breaks it after every 80 characters
   std::map<std::string, std::string> parts;
   for (std::size_t begin = 0; begin < description.size();) {
     const std::size_t end = std::min(description.find(';', begin), description.size());

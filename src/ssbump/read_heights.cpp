@@ -66,8 +66,11 @@ class Channels {
     if (error == std::errc() && parsed == end && at >= 0 && at < static_cast<int>(names_.size()))
       return single(at);
     const std::string hint = did_you_mean(wanted, names_);
-    fail(ExitCode::usage, "{} has no channel '{}'{}{} its channels are {} (or 0 to {})", file_, wanted, hint,
-         hint.empty() ? ";" : "", fmt::join(names_, ", "), names_.size() - 1);
+    const std::string there = names_.size() == 1 ? "its only channel is " + names_[0]
+                                                 : fmt::format("its channels are {} (or 0 to {})",
+                                                               fmt::join(names_, ", "), names_.size() - 1);
+    fail(ExitCode::usage, "{} has no channel '{}'{}{} {}", file_, wanted, hint, hint.empty() ? ";" : "",
+         there);
   }
 
   std::vector<std::string> names_;
