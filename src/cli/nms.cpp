@@ -86,6 +86,7 @@ std::map<std::string, Attribute> attributes_of(const Options& options, const std
       {"rnmbake:steps", shadows.steps},
       {"rnmbake:hardness", shadows.hardness_used()},
       {"rnmbake:shadow", std::string(shadows.hard ? "hard" : "soft")}};
+  if (shadows.true_slopes) attributes["rnmbake:true_slopes"] = 1;
   if (!options.light.empty()) attributes["rnmbake:light"] = options.light;
   return attributes;
 }
@@ -270,6 +271,10 @@ void add_parameters(CLI::App& command, Options& options) {
       ->check(CLI::Range(0.0F, 1e6F).description(""))
       ->type_name("FACTOR");
   command.add_flag("--hard", options.shadows.hard, "shadow or not, nothing between");
+  command.add_flag(
+      "--true-slopes", options.shadows.true_slopes,
+      "sum dot(light, n) / n.z, which is how far the surface rises over the ray, where the method sums "
+      "dot(light, n): finds more of the shadows. An extension of ours");
   command.add_flag("--jitter", options.jitter,
                    "each texel starts a random part of a step earlier: noise, not bands");
   command.add_option("--seed", options.seed, "of --jitter [0]")->type_name("N");

@@ -1,7 +1,6 @@
 #include "ssbump/height_shadows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -142,19 +141,6 @@ FloatImage height_shadows(const HeightField& field, const Vec3& light, double an
     }
   });
   return seen;
-}
-
-FloatImage height_normals(const HeightField& field) {
-  FloatImage normals(field.width(), field.height(), 3);
-  for (int y = 0; y < field.height(); ++y) {
-    for (int x = 0; x < field.width(); ++x) {
-      const double right = (height_at(field, x + 1, y) - height_at(field, x - 1, y)) / 2;
-      const double up = (height_at(field, x, y - 1) - height_at(field, x, y + 1)) / 2;
-      const Vec3 normal(unit(Vec3(static_cast<float>(-right), static_cast<float>(-up), 1)));
-      std::ranges::copy(std::array{normal.x, normal.y, normal.z}, normals.texel(x, y).begin());
-    }
-  }
-  return normals;
 }
 
 }  // namespace rnmbake

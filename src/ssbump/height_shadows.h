@@ -35,7 +35,4 @@ class HeightRays {
 [[nodiscard]] FloatImage height_shadows(const HeightField& field, const Vec3& light,
                                         double angular_radius = 0);
 
-/// Unit normals at texel centres, y up, from slopes by central differences.
-[[nodiscard]] FloatImage height_normals(const HeightField& field);
-
 }  // namespace rnmbake

@@ -13,12 +13,15 @@ namespace rnmbake {
 /// The published parameters. From a texel the normals are walked towards the light, and what they rise over
 /// the light's ray is summed: where the sum is above 0 the surface stands in the light.
 struct NormalShadowOptions {
-  float length = 0.22F;           // H: how far to walk, as a share of the map's longer side times |light.xy|
-  int steps = 32;                 // N
-  std::optional<float> hardness;  // 50 H where nothing is said
-  bool hard = false;              // 0 or 1: stops at the first step that is in the light
+  float length = 0.22F;  // H: how far to walk, as a share of the map's longer side times |light.xy|
+  int steps = 32;        // N
+  std::optional<float> hardness{};  // 50 H where nothing is said
+  bool hard = false;                // 0 or 1: stops at the first step that is in the light
   Border border = Border::wrap;
-  std::optional<std::uint32_t> jitter;  // a seed: each texel starts a random part of a step earlier
+  /// Sums dot(light, n) / n.z instead of dot(light, n): how far the surface really rises over the ray. An
+  /// extension of ours.
+  bool true_slopes = false;
+  std::optional<std::uint32_t> jitter{};  // a seed: each texel starts a random part of a step earlier
 
   [[nodiscard]] float hardness_used() const { return hardness.value_or(50 * length); }
 };
