@@ -32,6 +32,52 @@ inline void embree_occluded(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
+/// A query's context with something of its caller's, which filters find again.
+struct EmbreeContext {
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  RTCRayQueryContext base;
+#else
+  RTCIntersectContext base;
+#endif
+  void* user;
+};
+
+/// What the query that a filter works for was given.
+inline void* embree_user(const RTCFilterFunctionNArguments& filter) {
+  return reinterpret_cast<const EmbreeContext*>(filter.context)->user;
+}
+
+/// With filters: every query of a scene whose geometries have some must be one of these two.
+inline void embree_intersect(RTCScene scene, RTCRayHit& query, void* user) {
+  EmbreeContext context;
+  context.user = user;
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&context.base);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context.base;
+  rtcIntersect1(scene, &query, &arguments);
+#else
+  rtcInitIntersectContext(&context.base);
+  rtcIntersect1(scene, &context.base, &query);
+#endif
+}
+
+inline void embree_occluded(RTCScene scene, RTCRay& ray, void* user) {
+  EmbreeContext context;
+  context.user = user;
+#if RNMBAKE_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&context.base);
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context.base;
+  rtcOccluded1(scene, &ray, &arguments);
+#else
+  rtcInitIntersectContext(&context.base);
+  rtcOccluded1(scene, &context.base, &ray);
+#endif
+}
+
 /// `valid`: -1 for each of the eight rays that is there, else 0.
 inline void embree_occluded8(const int* valid, RTCScene scene, RTCRay8& rays) {
 #if RNMBAKE_EMBREE_MAJOR >= 4

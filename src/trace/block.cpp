@@ -2,14 +2,13 @@
 
 #include "basis/rnm.h"
 #include "basis/sh.h"
+#include "trace/passage.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace rnmbake {
-namespace {}  // namespace
-
 BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
                              const OwnSurface* own)
     : scene_(scene),
@@ -124,9 +123,10 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uin
   }
   if (count == 0) return;
   rays_ += static_cast<std::int64_t>(count);
-  const unsigned blocked = scene_.occluded(std::span(rays.data(), count));
+  std::array<Visibility, lamp_samples> left;
+  scene_.visibility(std::span(rays.data(), count), left.data());
   for (std::size_t k = 0; k < count; ++k) {
-    if ((blocked >> k & 1U) != 0) continue;
+    if (left[k].blocked()) continue;
     const LightSample& light = lights[k];
     const float density = light.pdf * lamp_samples;
     float share = 1;
@@ -134,7 +134,7 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uin
       look_around(from[k]);
       share = balance(density, lobes_[from[k]].pdf(light.direction));
     }
-    add(from[k], light.direction, light.radiance * (share / density));
+    add(from[k], light.direction, light.radiance * (share / density) * left[k].transmittance);
   }
 }
 
@@ -144,15 +144,17 @@ void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
   const float step =
       2 * (here.gap + static_cast<float>(lift(here.position, 1)));  // to the other side of the surface
   ++rays_;
-  if (scene_.occluded({here.position - here.face * step, light.direction, short_of(light.distance, step)}))
-    return;
+  const Visibility left =
+      scene_.visibility({here.position - here.face * step, light.direction, short_of(light.distance, step)});
+  if (left.blocked()) return;
   for (std::size_t k = 0; k < directions_; ++k) {
     const Vec3& normal = normals_[i * directions_ + k];
     const float other = normal.dot(light.direction) * inv_pi;
     if (!(other > 0)) continue;
     const float share = light.chance_hits ? power(light.pdf, other) : 1;
     const float cosine = recipe_->cosine({normal, here.frame.normal, true}, light.direction);
-    here.sums[k] += light.radiance * (cosine * inv_pi * share / (light.pdf * lamp_samples));
+    here.sums[k] +=
+        light.radiance * (cosine * inv_pi * share / (light.pdf * lamp_samples)) * left.transmittance;
   }
 }
 
@@ -169,27 +171,26 @@ void BlockGatherer::shoot(std::size_t i, Sampler& sampler) {
     return chance_share(options_.light_sampling, options_.chance_hits, pdf, light_pdf * lamp_samples);
   };
   const Ray ray{here.position, direction, infinity};
-  Hit hit;
   ++rays_;
-  if (!scene_.intersect(ray, hit)) {
-    const float other = scene_.lights().world_pdf(here.position, horizon(i), direction);
-    add(i, direction, scene_.lights().world(direction) * (by_chance(other) / pdf));
-    return;
-  }
-  const Vertex vertex = vertex_at(scene_, ray, hit);
-  if (vertex.back) ++back_faces_[i];
-  if (scene_.looks().emits(vertex.look)) {
+  const Arrival end = follow(scene_, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
     const float other =
         scene_.lights().triangle_pdf(here.position, horizon(i), hit.triangle, direction, hit.distance);
-    add(i, direction, scene_.looks().emission(vertex.look, vertex.uv) * (by_chance(other) / pdf));
+    add(i, direction, radiance * (by_chance(other) / pdf));
+  });
+  if (!end.met) {
+    const float other = scene_.lights().world_pdf(here.position, horizon(i), direction);
+    add(i, direction, scene_.lights().world(direction) * (by_chance(other) / pdf) * end.weight());
+    return;
   }
+  const Vertex vertex = vertex_at(scene_, ray, end.hit);
+  if (vertex.back && !scene_.looks().see_through(vertex.look)) ++back_faces_[i];  // leaves have two sides
   const Vec3 radiance = reflected_radiance(scene_, vertex, path_, sampler, rays_);
   if (radiance == Vec3(0)) return;
   if (!options_.reuse) {
-    add(i, direction, radiance / pdf);
+    add(i, direction, radiance / pdf * end.weight());
     return;
   }
-  found = {vertex.position, vertex.face, vertex.position + vertex.face * vertex.gap, radiance};
+  found = {vertex.position, vertex.face, vertex.start(), radiance / end.stays, end.way};
 }
 
 /// Gives what texel `finder` found to every texel that sees it.
@@ -207,14 +208,19 @@ void BlockGatherer::share(std::size_t finder, std::size_t count) {
     who[asked++] = i;
   }
   rays_ += static_cast<std::int64_t>(asked);
+  std::array<Visibility, texels> ways;
   std::size_t seeing = 0;
   for (std::size_t first = 0; first < asked; first += TraceScene::packet) {
     const std::size_t size = std::min(TraceScene::packet, asked - first);
-    const unsigned blocked = scene_.occluded(std::span(&rays[first], size));
+    std::array<Visibility, TraceScene::packet> found_ways;
+    scene_.visibility(std::span(&rays[first], size), found_ways.data());
     for (std::size_t k = 0; k < size; ++k) {
-      if ((blocked >> k & 1U) == 0) who[seeing++] = who[first + k];
+      if (found_ways[k].blocked()) continue;
+      ways[seeing] = found_ways[k];
+      who[seeing++] = who[first + k];
     }
   }
+  ways[seeing] = found.way;
   who[seeing++] = finder;
 
   std::array<Vec3, texels> directions;
@@ -228,11 +234,11 @@ void BlockGatherer::share(std::size_t finder, std::size_t count) {
     // then.
     const float pdf = lobes_[who[k]].pdf(directions[k]);
     if (pdf > 0) solid_angles[k] = std::max(0.0F, -way.dot(found.face)) / (distance * distance2);
-    density += pdf * solid_angles[k];
+    density += pdf * solid_angles[k] * ways[k].onward;
   }
   if (!(density > 0) || !std::isfinite(density)) return;
   for (std::size_t k = 0; k < seeing; ++k)
-    add(who[k], directions[k], found.radiance * (solid_angles[k] / density));
+    add(who[k], directions[k], found.radiance * (solid_angles[k] / density) * ways[k].transmittance);
 }
 
 }  // namespace rnmbake

@@ -4,10 +4,11 @@
 // That light is the same in every direction, so every texel of the block that sees the place may use it: for
 // texel i and the places y_j that the block found,
 //     E_i(b) = sum_j  V_ij L(y_j) max(0, D_ij . b) G_ij / sum_k V_kj p_k(y_j),
-// the balance heuristic over the block's ways to find y_j (Bekaert, Sbert and Halton, "Accelerating Path
-// Tracing by Re-using Paths", 2002), with p_k the density per area, visibility included. It is unbiased, and
-// a shadow ray takes the place of a whole path. Emission and sky that the first rays meet, and lamps, stay
-// each texel's own.
+// with V_ij what see-through surfaces leave of the light, the balance heuristic over the block's ways to find
+// y_j (Bekaert, Sbert and Halton, "Accelerating Path Tracing by Re-using Paths", 2002), with p_k the density
+// per area, and in place of V_kj there the probability that a path gets through what is see-through on the
+// way. It is unbiased, and a shadow ray takes the place of a whole path. Emission and sky that the first rays
+// meet, and lamps, stay each texel's own.
 #pragma once
 
 #include "trace/gather.h"
@@ -53,7 +54,8 @@ class BlockGatherer {
   };
   struct Found {
     Vec3 position, face, target;  // target: where rays to it end, just off the surface
-    Vec3 radiance{0, 0, 0};       // sent back; 0: nothing to share
+    Vec3 radiance{0, 0, 0};       // sent back, over the probability to stay there; 0: nothing to share
+    Visibility way;               // from the finder
   };
 
   void set_out(std::size_t i, const TexelSite& texel, Sampler& sampler);

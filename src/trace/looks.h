@@ -1,4 +1,4 @@
-// trace/looks.h - albedo and emission at a place on a triangle.
+// trace/looks.h - albedo, emission and transmittance at a place on a triangle.
 #pragma once
 
 #include "base/math.h"
@@ -20,6 +20,14 @@ class Looks {
     const Look& it = scene_->looks[look];
     return it.albedo_picture < 0 ? it.albedo : unit(look_up(scene_->pictures[it.albedo_picture], uv));
   }
+  /// In [0, 1].
+  [[nodiscard]] Vec3 transmittance(std::uint32_t look, const Vec2& uv) const {
+    const Look& it = scene_->looks[look];
+    if (it.transmittance_picture < 0) return it.transmittance;
+    return unit(look_up(scene_->pictures[it.transmittance_picture], uv));
+  }
+  /// Whether light goes through some of it.
+  [[nodiscard]] bool see_through(std::uint32_t look) const { return scene_->looks[look].see_through(); }
   /// Radiance.
   [[nodiscard]] Vec3 emission(std::uint32_t look, const Vec2& uv) const {
     const Look& it = scene_->looks[look];

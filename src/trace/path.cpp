@@ -1,6 +1,7 @@
 #include "trace/path.h"
 
 #include "trace/lobes.h"
+#include "trace/passage.h"
 
 #include <algorithm>
 
@@ -41,13 +42,14 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   if (!(light.pdf > 0) || !(cosine > 0) || !(above || reflector.sees_below_face())) return Vec3(0);
   ++rays;
   const Vec3 start = above ? vertex.start() : vertex.start_below();
-  if (scene.occluded({start, light.direction, short_of(light.distance, vertex.gap)})) return Vec3(0);
+  const Visibility left = scene.visibility({start, light.direction, short_of(light.distance, vertex.gap)});
+  if (left.blocked()) return Vec3(0);
   const float other = reflector.closure.normal.dot(light.direction) * inv_pi;
   float share = 1;
   if (light.chance_hits && options.chance_hits) {
     share = above ? balance(light.pdf, other) : power(light.pdf, other);
   }
-  return light.radiance * (cosine * inv_pi * share / light.pdf);
+  return light.radiance * (cosine * inv_pi * share / light.pdf) * left.transmittance;
 }
 
 }  // namespace
@@ -77,19 +79,18 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
       return chance_share(options.light_sampling, options.chance_hits, pdf, light_pdf);
     };
     const Ray ray{vertex.start(), direction, infinity};
-    Hit hit;
     ++rays;
-    if (!scene.intersect(ray, hit)) {
+    const Arrival next = follow(scene, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
+      const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
+      sum += throughput * radiance * by_chance(other);
+    });
+    throughput *= next.weight();
+    if (!next.met) {
       const float other = lights.world_pdf(ray.origin, normal, direction);
       sum += throughput * lights.world(direction) * by_chance(other);
       break;
     }
-    const Vertex next = vertex_at(scene, ray, hit);
-    if (scene.looks().emits(next.look)) {
-      const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
-      sum += throughput * scene.looks().emission(next.look, next.uv) * by_chance(other);
-    }
-    vertex = next;
+    vertex = vertex_at(scene, ray, next.hit);
   }
   return sum;
 }

@@ -1,72 +1,18 @@
 #include "trace/scene.h"
 
 #include "base/clock.h"
-#include "base/error.h"
-#include "rays/embree.h"
+#include "trace/accelerator.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 namespace rnmbake {
-
-/// One mesh of all triangles. Embree reads the positions where they are and up to 16 bytes past them.
-struct TraceScene::Accelerator {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::vector<std::uint32_t> corners;
-  std::atomic<std::ptrdiff_t> bytes = 0;
-
-  explicit Accelerator(Triangles& triangles) : corners(triangles.position.size()) {
-    std::iota(corners.begin(), corners.end(), 0U);
-    triangles.position.reserve(triangles.position.size() + 2);
-    device = rtcNewDevice(nullptr);
-    if (device == nullptr) {
-      fail(ExitCode::environment, "Embree does not start (error {}): is this processor older than SSE2?",
-           static_cast<int>(rtcGetDeviceError(nullptr)));
-    }
-    rtcSetDeviceMemoryMonitorFunction(device, count_bytes, this);
-    scene = rtcNewScene(device);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    if (triangles.size() > 0) add(triangles);
-    rtcCommitScene(scene);
-    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-      fail(ExitCode::environment,
-           "Embree could not build its tree over {} triangles (error {}): is there memory?", triangles.size(),
-           static_cast<int>(error));
-    }
-  }
-  ~Accelerator() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
-  Accelerator(const Accelerator&) = delete;
-  Accelerator& operator=(const Accelerator&) = delete;
-
- private:
-  void add(const Triangles& triangles) {
-    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.position.data(),
-                               0, sizeof(Vec3), triangles.position.size());
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
-                               3 * sizeof(std::uint32_t), triangles.size());
-    rtcSetGeometryMask(mesh, all_rays);
-    rtcCommitGeometry(mesh);
-    rtcAttachGeometry(scene, mesh);
-    rtcReleaseGeometry(mesh);
-  }
-
-  static bool count_bytes(void* self, ssize_t bytes, bool /*after*/) {
-    static_cast<Accelerator*>(self)->bytes += bytes;
-    return true;
-  }
-};
 
 namespace {
 
@@ -97,23 +43,87 @@ T mixed(const std::vector<T>& corners, const Hit& hit) {
   return c[0] * (1 - hit.b1 - hit.b2) + c[1] * hit.b1 + c[2] * hit.b2;
 }
 
+float largest(const Vec3& c) {
+  return std::max({c.x, c.y, c.z});
+}
+
+/// Of the paths that come to a place, so many go on through it: as much as it lets through, of what it does
+/// not swallow.
+float onward(const Vec3& transmittance, const Vec3& albedo) {
+  const float through = largest(transmittance);
+  return through > 0 ? through / (through + largest(albedo)) : 0;
+}
+
 }  // namespace
+
+/// A ray on its way; Embree's filter finds it in the query's context.
+struct TraceScene::Journey {
+  const TraceScene& scene;
+  std::vector<Crossing>* crossings = nullptr;  // what is on the way, or ...
+  Visibility visibility;                       // ... what is left at its end
+  std::vector<float> seams;                    // distances of hits on edges
+
+  /// A ray along the common edge of two triangles meets both.
+  [[nodiscard]] bool is_known(const Hit& hit) {
+    if (std::min({hit.b1, hit.b2, 1 - hit.b1 - hit.b2}) > 1e-6F) return false;
+    const auto near = [&](float seam) { return std::abs(seam - hit.distance) <= 1e-5F * hit.distance; };
+    if (std::any_of(seams.begin(), seams.end(), near)) return true;
+    seams.push_back(hit.distance);
+    return false;
+  }
+
+  /// Whether the ray goes on.
+  [[nodiscard]] bool pass(const Hit& hit) {
+    const std::uint32_t look = scene.triangles_.look[hit.triangle];
+    const Vec2 uv = mixed(scene.triangles_.uv, hit);
+    const Vec3 transmittance = scene.looks_.transmittance(look, uv);
+    if (!(largest(transmittance) > 0)) return false;
+    if (is_known(hit)) return true;
+    const float share = onward(transmittance, scene.looks_.albedo(look, uv));
+    if (crossings != nullptr) {
+      crossings->push_back({hit, transmittance, share});
+    } else {
+      visibility.transmittance *= transmittance;
+      visibility.onward *= share;
+    }
+    return true;
+  }
+
+  static void filter(const RTCFilterFunctionNArguments* arguments) {
+    auto* journey = static_cast<Journey*>(embree_user(*arguments));
+    if (journey == nullptr || arguments->valid[0] == 0) return;  // as if it were opaque
+    const RTCHit at = rtcGetHitFromHitN(arguments->hit, arguments->N, 0);
+    const Hit hit{journey->scene.accelerator_->triangle(at.geomID, at.primID), at.u, at.v,
+                  RTCRayN_tfar(arguments->ray, arguments->N, 0), unit(Vec3(at.Ng_x, at.Ng_y, at.Ng_z))};
+    if (journey->pass(hit)) arguments->valid[0] = 0;
+  }
+};
 
 TraceScene::TraceScene(const Exchange& scene, const std::string& blender_version)
     : exchange_(scene),
       triangles_(world_triangles(scene)),
       looks_(scene),
       lights_(scene, triangles_, blender_version),
-      accelerator_(std::make_unique<Accelerator>(triangles_)) {}
+      accelerator_(std::make_unique<Accelerator>(triangles_, looks_, &Journey::filter)) {}
 
 TraceScene::~TraceScene() = default;
 
-bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
+bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, false});
   RTCRayHit query = ask_embree(ray);
-  embree_intersect(accelerator_->scene, query);
+  if (accelerator_->see_through()) {
+    crossings.clear();
+    Journey journey{*this, &crossings, {}, {}};
+    embree_intersect(accelerator_->scene(), query, &journey);
+    std::erase_if(crossings, [&](const Crossing& it) { return it.hit.distance > query.ray.tfar; });
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+      return std::pair(a.hit.distance, a.hit.triangle) < std::pair(b.hit.distance, b.hit.triangle);
+    });
+  } else {
+    embree_intersect(accelerator_->scene(), query);
+  }
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.triangle = query.hit.primID;
+  hit.triangle = accelerator_->triangle(query.hit.geomID, query.hit.primID);
   hit.b1 = query.hit.u;
   hit.b2 = query.hit.v;
   hit.distance = query.ray.tfar;
@@ -121,15 +131,23 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
-bool TraceScene::occluded(const Ray& ray) const {
+Visibility TraceScene::visibility(const Ray& ray) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
   RTCRay query = to_embree(ray);
-  embree_occluded(accelerator_->scene, query);
-  return query.tfar < 0;
+  Journey journey{*this, nullptr, {}, {}};
+  if (accelerator_->see_through()) {
+    embree_occluded(accelerator_->scene(), query, &journey);
+  } else {
+    embree_occluded(accelerator_->scene(), query);
+  }
+  return query.tfar < 0 ? Visibility{Vec3(0), 0} : journey.visibility;
 }
 
-unsigned TraceScene::occluded(std::span<const Ray> rays) const {
-  if (rays.size() == 1) return occluded(rays[0]) ? 1 : 0;
+void TraceScene::visibility(std::span<const Ray> rays, Visibility* results) const {
+  if (rays.size() == 1 || accelerator_->see_through()) {
+    for (const Ray& ray : rays) *results++ = visibility(ray);
+    return;
+  }
   alignas(32) RTCRay8 query;
   alignas(32) std::array<int, packet> valid{};
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -148,22 +166,23 @@ unsigned TraceScene::occluded(std::span<const Ray> rays) const {
     query.mask[i] = all_rays;
     query.flags[i] = 0;
   }
-  embree_occluded8(valid.data(), accelerator_->scene, query);
-  unsigned blocked = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) blocked |= (query.tfar[i] < 0 ? 1U : 0U) << i;
-  return blocked;
+  embree_occluded8(valid.data(), accelerator_->scene(), query);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    results[i] = query.tfar[i] < 0 ? Visibility{Vec3(0), 0} : Visibility{};
 }
 
 double TraceScene::time_bare(const RayLog& log, int threads) const {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  RTCScene tree = accelerator_->scene();
+  const bool see_through = accelerator_->see_through();
   const auto pass = [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, log.size(), 4096), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         RTCRayHit query = ask_embree({log[i].origin, log[i].direction, log[i].to});
         if (log[i].shadow) {
-          embree_occluded(accelerator_->scene, query.ray);
+          see_through ? embree_occluded(tree, query.ray, nullptr) : embree_occluded(tree, query.ray);
         } else {
-          embree_intersect(accelerator_->scene, query);
+          see_through ? embree_intersect(tree, query, nullptr) : embree_intersect(tree, query);
         }
       }
     });
@@ -177,7 +196,11 @@ double TraceScene::time_bare(const RayLog& log, int threads) const {
 
 std::size_t TraceScene::bytes() const {
   const std::size_t for_each = 3 * (2 * sizeof(Vec3) + sizeof(Vec2)) + 6 * sizeof(std::uint32_t);
-  return triangles_.size() * for_each + static_cast<std::size_t>(accelerator_->bytes.load());
+  return triangles_.size() * for_each + static_cast<std::size_t>(accelerator_->bytes());
+}
+
+Vec2 picture_uv(const TraceScene& scene, const Hit& hit) {
+  return mixed(scene.triangles().uv, hit);
 }
 
 Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
@@ -194,7 +217,7 @@ Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
   vertex.towards = -ray.direction;
   vertex.b1 = hit.b1;
   vertex.b2 = hit.b2;
-  vertex.uv = mixed(triangles.uv, hit);
+  vertex.uv = picture_uv(scene, hit);
   vertex.triangle = hit.triangle;
   vertex.look = triangles.look[hit.triangle];
   return vertex;

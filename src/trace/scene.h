@@ -14,6 +14,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rnmbake {
 
@@ -29,6 +30,22 @@ struct Hit {
   Vec3 normal;  // geometric, unit, world space: of the triangle's front
 };
 
+/// A see-through surface on a ray's way.
+struct Crossing {
+  Hit hit;
+  Vec3 transmittance;
+  float onward = 0;  // share of the paths that go on through it, in (0, 1]
+};
+
+/// What gets from one place to another.
+struct Visibility {
+  Vec3 transmittance{1, 1, 1};  // share of the light
+  float onward = 1;             // share of the paths that set out that way; 0: something opaque is between
+  [[nodiscard]] bool blocked() const { return onward == 0; }
+};
+
+class Accelerator;
+
 /// Owns the acceleration structure; the Exchange must outlive it. Thread-safe once made.
 class TraceScene {
  public:
@@ -39,10 +56,12 @@ class TraceScene {
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;
 
-  [[nodiscard]] bool intersect(const Ray& ray, Hit& hit) const;
-  [[nodiscard]] bool occluded(const Ray& ray) const;
-  /// For rays that start or end near each other, at most 8 at a time: bit i says whether rays[i] is occluded.
-  [[nodiscard]] unsigned occluded(std::span<const Ray> rays) const;
+  /// The nearest opaque place, and all see-through ones before it, from near to far. trace/passage.h follows
+  /// them.
+  [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const;
+  [[nodiscard]] Visibility visibility(const Ray& ray) const;
+  /// Of rays that start or end near each other, at most 8 at a time: one result for each.
+  void visibility(std::span<const Ray> rays, Visibility* results) const;
   static constexpr std::size_t packet = 8;
 
   [[nodiscard]] const Exchange& exchange() const { return exchange_; }
@@ -59,7 +78,7 @@ class TraceScene {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  struct Accelerator;
+  struct Journey;
   const Exchange& exchange_;
   Triangles triangles_;
   Looks looks_;
@@ -90,6 +109,9 @@ struct Vertex {
   /// ... and on the other side.
   [[nodiscard]] Vec3 start_below() const { return position - face * gap; }
 };
+
+/// Of the look's pictures.
+[[nodiscard]] Vec2 picture_uv(const TraceScene& scene, const Hit& hit);
 
 [[nodiscard]] Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit);
 

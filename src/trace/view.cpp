@@ -1,5 +1,7 @@
 #include "trace/view.h"
 
+#include "trace/passage.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,30 +19,37 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What one camera ray brings.
 struct Seen {
   Vec3 radiance{0, 0, 0}, albedo{0, 0, 0};
-  bool surface = false;
+  float surface = 0;
 };
 
-/// The first thing on the way that shows itself to cameras.
-bool look(const TraceScene& scene, Ray ray, Vertex& vertex) {
+/// Everything on the way that shows itself to cameras, to where a path stays.
+Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Sampler& sampler) {
   const auto& objects = scene.exchange().survey.objects;
-  Hit hit;
-  while (scene.intersect(ray, hit)) {
-    vertex = vertex_at(scene, ray, hit);
-    if (objects[scene.triangles().object[hit.triangle]].visible_to_camera) return true;
+  const auto is_shown = [&](std::uint32_t triangle) {
+    return bool(objects[scene.triangles().object[triangle]].visible_to_camera);
+  };
+  Seen seen;
+  Vec3 weight(1);
+  while (true) {
+    const auto glow = [&](const Hit&, const Vec3& radiance) { seen.radiance += weight * radiance; };
+    const Arrival end = follow(scene, ray, sampler, glow, is_shown);
+    weight *= end.weight();
+    if (!end.met) {
+      seen.radiance += weight * scene.lights().world(ray.direction);
+      seen.surface = 1 - (weight.x + weight.y + weight.z) / 3;
+      return seen;
+    }
+    const Vertex vertex = vertex_at(scene, ray, end.hit);
+    if (is_shown(end.hit.triangle)) {
+      seen.radiance += weight * reflected(vertex, sampler);
+      seen.albedo = weight * scene.looks().albedo(vertex.look, vertex.uv);
+      seen.surface = 1;
+      return seen;
+    }
     // A step along the ray as well: with a grazing ray the way through the face is too short to count.
-    const float step = std::max(vertex.gap, 1e-6F * hit.distance);
+    const float step = std::max(vertex.gap, 1e-6F * end.hit.distance);
     ray.origin = vertex.start_below() + ray.direction * step;
   }
-  return false;
-}
-
-Seen see(const TraceScene& scene, const Ray& ray, const ReflectedLight& reflected, Sampler& sampler) {
-  Vertex vertex;
-  if (!look(scene, ray, vertex)) return {scene.lights().world(ray.direction), Vec3(0), false};
-  const Looks& looks = scene.looks();
-  Vec3 radiance = reflected(vertex, sampler);
-  if (looks.emits(vertex.look)) radiance += looks.emission(vertex.look, vertex.uv);
-  return {radiance, looks.albedo(vertex.look, vertex.uv), true};
 }
 
 class ViewTracer {
@@ -73,7 +82,7 @@ class ViewTracer {
           see(scene_, rays_.through(x + double(place.x), y + double(place.y)), reflected_, sampler);
       radiance += seen.radiance;
       albedo += seen.albedo;
-      surfaces += seen.surface ? 1.0F : 0.0F;
+      surfaces += seen.surface;
     }
     const float scale = 1 / static_cast<float>(options_.samples);
     for (int c = 0; c < 3; ++c) {

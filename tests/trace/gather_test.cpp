@@ -1,5 +1,6 @@
 #include "trace/gather.h"
 
+#include "trace/moments.h"
 #include "trace/trace_scenes.h"
 
 #include <cmath>
@@ -29,23 +30,6 @@ std::vector<double> deviations(const Gathered& gathered, const std::vector<doubl
   }
   return z;
 }
-
-class Moments {
- public:
-  void add(double value) {
-    ++count_;
-    sum_ += value;
-    squares_ += value * value;
-  }
-  [[nodiscard]] double mean() const { return sum_ / count_; }
-  [[nodiscard]] double spread() const {
-    return std::sqrt(std::max(0.0, squares_ / count_ - mean() * mean()) * count_ / (count_ - 1));
-  }
-  [[nodiscard]] double error() const { return spread() / std::sqrt(count_); }
-
- private:
-  double count_ = 0, sum_ = 0, squares_ = 0;
-};
 
 /// The relative error, mean over the directions and seeds, must be within 4 of its standard errors, and
 /// these at most `weakest` (2.5e-4: a bias of 0.1 % fails); each direction must be within 4.5 of its own; and

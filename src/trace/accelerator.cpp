@@ -1,0 +1,73 @@
+#include "trace/accelerator.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace rnmbake {
+
+Accelerator::Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunctionN filter) {
+  sort(triangles, looks);
+  triangles.position.reserve(triangles.position.size() + 2);  // Embree reads up to 16 bytes past them
+  device_ = rtcNewDevice(nullptr);
+  if (device_ == nullptr) {
+    fail(ExitCode::environment, "Embree does not start (error {}): is this processor older than SSE2?",
+         static_cast<int>(rtcGetDeviceError(nullptr)));
+  }
+  rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, this);
+  scene_ = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  add(0, triangles, nullptr);
+  add(1, triangles, filter);
+  rtcCommitScene(scene_);
+  if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
+    fail(ExitCode::environment,
+         "Embree could not build its tree over {} triangles (error {}): is there memory?", triangles.size(),
+         static_cast<int>(error));
+  }
+}
+
+Accelerator::~Accelerator() {
+  if (scene_ != nullptr) rtcReleaseScene(scene_);
+  if (device_ != nullptr) rtcReleaseDevice(device_);
+}
+
+void Accelerator::sort(const Triangles& triangles, const Looks& looks) {
+  const auto lets_through = [&](std::uint32_t look) { return looks.see_through(look); };
+  if (std::none_of(triangles.look.begin(), triangles.look.end(), lets_through)) {
+    corners_[0].resize(triangles.position.size());
+    std::iota(corners_[0].begin(), corners_[0].end(), 0U);
+    return;
+  }
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const std::size_t kind = lets_through(triangles.look[t]) ? 1 : 0;
+    numbers_[kind].push_back(t);
+    for (std::uint32_t k = 0; k < 3; ++k) corners_[kind].push_back(3 * t + k);
+  }
+}
+
+void Accelerator::add(unsigned geometry, const Triangles& triangles, RTCFilterFunctionN filter) {
+  const std::vector<std::uint32_t>& corners = corners_[geometry];
+  if (corners.empty()) return;
+  RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.position.data(), 0,
+                             sizeof(Vec3), triangles.position.size());
+  rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
+                             3 * sizeof(std::uint32_t), corners.size() / 3);
+  rtcSetGeometryMask(mesh, all_rays);
+  if (filter != nullptr) {
+    rtcSetGeometryIntersectFilterFunction(mesh, filter);
+    rtcSetGeometryOccludedFilterFunction(mesh, filter);
+  }
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometryByID(scene_, mesh, geometry);
+  rtcReleaseGeometry(mesh);
+}
+
+bool Accelerator::count_bytes(void* self, ssize_t bytes, bool /*after*/) {
+  static_cast<Accelerator*>(self)->bytes_ += bytes;
+  return true;
+}
+
+}  // namespace rnmbake
