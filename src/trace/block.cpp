@@ -14,6 +14,7 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
     : scene_(scene),
       sites_(sites),
       options_(options),
+      own_(own),
       path_{options.bounces, options.light_sampling, options.chance_hits, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
@@ -54,6 +55,7 @@ void BlockGatherer::batch(std::span<const TexelSite> block, int samples, std::ui
 void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& sampler) {
   const Place place = sites_.place(texel, sampler.next2());
   Here& here = here_[i];
+  here.weights = place.weights;
   here.face = place.face;
   here.gap = rounding_gap(place.position);
   here.position = place.position + place.face * here.gap;
@@ -65,7 +67,8 @@ void BlockGatherer::set_out(std::size_t i, const TexelSite& texel, Sampler& samp
   Vec3* normals = &normals_[i * directions_];
   for (std::size_t k = 0; k < directions_; ++k) {
     normals[k] = unit(place.frame.to_world(options_.directions[k].direction));
-    if (recipe_) normals[k] = recipe_->closure(normals[k], here.frame.normal, here.face, here.face).normal;
+    if (recipe_)
+      normals[k] = recipe_->closure(normals[k], here.frame.normal, here.face, here.frame.normal).normal;
   }
 }
 
@@ -114,7 +117,7 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uin
     const LightSample light = scene_.lights().sample(here.position, horizon(slot), sampler.next3());
     if (!(light.pdf > 0)) continue;
     if (!(light.direction.dot(here.face) > 0)) {
-      if (recipe_ && recipe_->faults().below_horizon) add_below(slot, light);
+      if (recipe_ && recipe_->faults().below_horizon) add_below(slot, texel, light);
       continue;
     }
     rays[count] = {here.position, light.direction, short_of(light.distance, here.gap)};
@@ -139,13 +142,12 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uin
 }
 
 /// A lamp below the face: Cycles asks only whether it is above the horizon of the closure.
-void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
+void BlockGatherer::add_below(std::size_t i, const TexelSite& texel, const LightSample& light) {
+  if (!sampled_below(scene_.lights(), light)) return;
   const Here& here = here_[i];
-  const float step =
-      2 * (here.gap + static_cast<float>(lift(here.position, 1)));  // to the other side of the surface
+  const Vec3 start = own_->start_below(texel.triangle, here.weights, here.position, light.direction);
   ++rays_;
-  const Visibility left =
-      scene_.visibility({here.position - here.face * step, light.direction, short_of(light.distance, step)});
+  const Visibility left = scene_.visibility({start, light.direction, short_of(light.distance, 2 * here.gap)});
   if (left.blocked()) return;
   for (std::size_t k = 0; k < directions_; ++k) {
     const Vec3& normal = normals_[i * directions_ + k];

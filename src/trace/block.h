@@ -47,7 +47,7 @@ class BlockGatherer {
  private:
   /// What one texel has in one round.
   struct Here {
-    Vec3 position, face;
+    Vec3 weights, position, face;
     Frame frame;           // orthonormal; its normal is the shading normal
     float gap = 0;         // how far it is off the surface
     Vec3* sums = nullptr;  // of this texel in the tally
@@ -64,7 +64,7 @@ class BlockGatherer {
   void shoot(std::size_t i, Sampler& sampler);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
-  void add_below(std::size_t i, const LightSample& light);
+  void add_below(std::size_t i, const TexelSite& texel, const LightSample& light);
 
   /// Few enough for a lobe each.
   [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
@@ -76,6 +76,7 @@ class BlockGatherer {
   const TraceScene& scene_;
   const Sites& sites_;
   const GatherOptions& options_;
+  const OwnSurface* own_;  // null: no faults
   std::optional<Recipe> recipe_;
   PathOptions path_;
   std::size_t directions_, coefficients_;

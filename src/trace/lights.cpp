@@ -170,6 +170,10 @@ Vec3 Lights::world(const Vec3& direction) const {
   return impl_->world.radiance(direction);
 }
 
+bool Lights::world_is_even() const {
+  return impl_->world.even();
+}
+
 float Lights::world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direction) const {
   if (impl_->world.black()) return 0;
   const Impl::Weights weights = impl_->weigh(point, normal);

@@ -42,6 +42,8 @@ class Lights {
 
   /// Radiance from a direction in which nothing is hit.
   [[nodiscard]] Vec3 world(const Vec3& direction) const;
+  /// The same in every direction: sampled here, but left to chance by Cycles.
+  [[nodiscard]] bool world_is_even() const;
   /// What sample() would have as pdf for that direction of the world.
   [[nodiscard]] float world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direction) const;
   /// ... and for a place on a glowing triangle (index into Triangles) at `distance` along `direction`.

@@ -39,9 +39,10 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   const float cosine = reflector.cosine(light.direction);
   // Not from under the face, where chance would not find it either.
   const bool above = vertex.face.dot(light.direction) > 0;
-  if (!(light.pdf > 0) || !(cosine > 0) || !(above || reflector.sees_below_face())) return Vec3(0);
+  const bool counts = above || (reflector.sees_below_face() && sampled_below(scene.lights(), light));
+  if (!(light.pdf > 0) || !(cosine > 0) || !counts) return Vec3(0);
   ++rays;
-  const Vec3 start = above ? vertex.start() : vertex.start_below();
+  const Vec3 start = above ? vertex.start() : options.own->start_below(vertex, light.direction);
   const Visibility left = scene.visibility({start, light.direction, short_of(light.distance, vertex.gap)});
   if (left.blocked()) return Vec3(0);
   const float other = reflector.closure.normal.dot(light.direction) * inv_pi;

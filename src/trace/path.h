@@ -7,6 +7,7 @@
 #include "trace/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace rnmbake {
@@ -42,6 +43,11 @@ struct PathOptions {
 [[nodiscard]] inline float chance_share(bool light_sampling, bool chance_hits, float pdf, float light_pdf) {
   if (!chance_hits) return 0;
   return light_sampling ? balance(pdf, light_pdf) : 1;
+}
+
+/// Whether Cycles samples that light below a face, too: an even world it leaves to chance.
+[[nodiscard]] inline bool sampled_below(const Lights& lights, const LightSample& light) {
+  return !(light.chance_hits && std::isinf(light.distance) && lights.world_is_even());
 }
 
 /// Unbiased estimate of the diffusely reflected radiance at `vertex` towards the side that it was met from:

@@ -1,6 +1,7 @@
 #include "trace/recipe.h"
 
 #include "base/error.h"
+#include "trace/bulge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,29 @@ std::uint32_t OwnSurface::place_of(const Vertex& vertex) const {
   if (scene_.triangles().object[vertex.triangle] != object_) return absent;
   const std::uint32_t source = scene_.triangles().source[vertex.triangle];
   return source < of_source_.size() ? of_source_[source] : absent;
+}
+
+Vec3 OwnSurface::start_below(std::uint32_t triangle, const Vec3& weights, const Vec3& start,
+                             const Vec3& direction, float side) const {
+  const SurfaceTriangle& flat = surface_.triangles[triangle];
+  SmoothTriangle smooth;
+  Vec3 normal(0);
+  bool curved = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SurfaceCorner& corner = flat.corners[k];
+    smooth.positions[k] = corner.position;
+    smooth.normals[k] = corner.frame.normal * side;
+    normal += smooth.normals[k] * weights[static_cast<int>(k)];
+    curved |= corner.frame.normal.dot(flat.normal) < 1 - 1e-6F;
+  }
+  if (curved && normal.dot(direction) > 0) return start + bulge(smooth, weights);
+  // Cycles passes by the triangle that it starts from.
+  return start - flat.normal * (side * 2 * (rounding_gap(start) + static_cast<float>(lift(start, 1))));
+}
+
+Vec3 OwnSurface::start_below(const Vertex& vertex, const Vec3& direction) const {
+  const Vec3 weights(1 - vertex.b1 - vertex.b2, vertex.b1, vertex.b2);
+  return start_below(place_of(vertex), weights, vertex.start(), direction, vertex.back ? -1.0F : 1.0F);
 }
 
 Vec3 OwnSurface::direction(const Vertex& vertex, const Vec3& basis) const {

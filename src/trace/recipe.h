@@ -56,6 +56,11 @@ class OwnSurface {
   [[nodiscard]] bool holds(const Vertex& vertex) const { return place_of(vertex) != absent; }
   /// World-space direction of a tangent-space vector at a vertex that it holds, on the side that is seen.
   [[nodiscard]] Vec3 direction(const Vertex& vertex, const Vec3& basis) const;
+  /// Where a ray to a light under the face starts in Cycles. `weights`: barycentric, on a triangle of the
+  /// surface; `start`: where other rays from there do; `side`: -1 where the triangle is seen from behind.
+  [[nodiscard]] Vec3 start_below(std::uint32_t triangle, const Vec3& weights, const Vec3& start,
+                                 const Vec3& direction, float side = 1) const;
+  [[nodiscard]] Vec3 start_below(const Vertex& vertex, const Vec3& direction) const;
   /// Whether a triangle (of the surface) reflects nothing at all.
   [[nodiscard]] bool is_black(std::uint32_t triangle) const { return black_[triangle]; }
 

@@ -93,10 +93,11 @@ Vec3 Sites::retried(const TexelSite& texel, Vec2 u) const {
 }
 
 Place Sites::place(const TexelSite& texel, const Vec2& u) const {
-  const auto [b0, b1, b2] = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
+  Place place;
+  place.weights = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
+  const auto [b0, b1, b2] = place.weights;
   const SurfaceTriangle& triangle = surface_.triangles[texel.triangle];
   const auto& [c0, c1, c2] = triangle.corners;
-  Place place;
   place.position = c0.position * b0 + c1.position * b1 + c2.position * b2;
   place.face = triangle.normal;
   const auto mixed = [&](Vec3 Frame::*axis) {

@@ -19,6 +19,7 @@ struct TexelSite {
 
 /// A place within a texel's footprint, and the frame there.
 struct Place {
+  Vec3 weights;  // barycentric
   Vec3 position;
   Vec3 face;  // geometric normal, unit
   Frame

@@ -18,6 +18,7 @@ class WorldLight {
   explicit WorldLight(const Exchange& scene);
 
   [[nodiscard]] bool black() const { return average_ == 0; }
+  [[nodiscard]] bool even() const { return picture_ == nullptr; }
   /// Brightness, averaged over the sphere.
   [[nodiscard]] float average() const { return average_; }
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;

@@ -75,6 +75,53 @@ TEST(Recipe, FurnaceComesOutAsInEachBlender) {
   }
 }
 
+/// Smooth normals: those of a sphere about `middle`, on its inside if `side` is -1.
+void make_smooth(Mesh& mesh, const Vec3& middle, float side) {
+  for (std::size_t k = 0; k < mesh.loop_normal.size(); ++k) {
+    mesh.loop_normal[k] = ((mesh.positions[mesh.loop_vertex[k]] - middle) * side).normalized();
+  }
+}
+
+void add_sun(Exchange& scene, double degrees) {
+  LightInfo sun = light("SUN", 1, {{"angle", 0}});
+  sun.to_world.setAxisAngle(Vec3d(0, 1, 0), degrees * pi / 180);  // from the zenith towards +x
+  scene.survey.lights.push_back(sun);
+}
+
+double flat_mean(const Exchange& scene, bool from_below, int samples = 64) {
+  GatherOptions options = recipe_options("4.3.2", samples);
+  options.faults.self_reflection = false;
+  options.faults.below_horizon = from_below;
+  return gather_one(scene, 0, options, 16, 16).directions[0].mean[0];
+}
+
+TEST(Recipe, LightFromBelowComesWhereTheSurfaceBulges) {
+  Exchange scene;
+  add_object(scene, "square", {level(1, 0)}, Vec3(0.5F));
+  make_smooth(scene.survey.meshes[0], Vec3(0, 0, -3), 1);
+  add_sun(scene, 91);
+  EXPECT_EQ(flat_mean(scene, false), 0);
+  EXPECT_GT(flat_mean(scene, true) * pi, 0.01);
+}
+
+/// Cycles does not pass by the face that a ray starts from where it is shaded smooth.
+TEST(Recipe, NoLightFromBelowComesThroughAShell) {
+  Exchange scene;
+  add_object(scene, "room", room(1), Vec3(0.5F));
+  make_smooth(scene.survey.meshes[0], Vec3(0), -1);
+  for (const double degrees : {0, 30, 50}) add_sun(scene, degrees);
+  EXPECT_EQ(flat_mean(scene, true), 0);
+}
+
+/// Cycles leaves a sky that is the same everywhere to chance, which finds none of it under the face.
+TEST(Recipe, AnEvenSkyGivesNoLightFromBelow) {
+  Exchange scene;
+  add_object(scene, "square", {level(1, 0)}, Vec3(0.5F));
+  make_smooth(scene.survey.meshes[0], Vec3(0, 0, -3), 1);
+  scene.world.radiance = Vec3(1);
+  EXPECT_NEAR(flat_mean(scene, true, 1024), flat_mean(scene, false, 1024), 1e-3);
+}
+
 TEST(Recipe, WhatReflectsNothingBakesBlack) {
   Exchange scene;
   add_object(scene, "floor", {level(1, 0)}, Vec3(0));

@@ -51,15 +51,17 @@ TEST_P(UniformReference, MeansAgreeAndStandardErrorsAreTrue) {
 INSTANTIATE_TEST_SUITE_P(ClosedForms, UniformReference, testing::ValuesIn(uniform_cases()),
                          [](const auto& form) { return form.param.name; });
 
-// Faces narrower than a texel, whose normals turn by 45 degrees within one: what a texel averages over, and
-// what becomes of samples past a face's edge, decides most of its value. No other choice of the two comes
-// below 1 %.
-TEST(Reference, AveragesOverTheSamePlacesAsThisBlender) {
-  Workbench bench(RNMBAKE_BINARY, {});
+/// RMS over the texels of a smooth cylinder in the sun, its faces about as wide as a texel: reference minus
+/// bake, over the mean.
+double cylinder_difference(Workbench& bench, Words flags, const Words& of_bake, const Words& of_reference) {
   const auto blend = bench.build({"smooth_cylinder", {"sides=48"}});
-  const Words flags{"--resolution", "32", "--samples", "512", "--bounces", "0", "--bases", "flat"};
-  const LayeredImage baked = bench.bake(blend, flags).lightmap("smooth_cylinder");
-  const LayeredImage traced = bench.reference(blend, flags).lightmap("smooth_cylinder");
+  flags.insert(flags.end(), {"--samples", "512", "--bounces", "0", "--bases", "flat"});
+  const auto with = [&](Words more) {
+    more.insert(more.end(), flags.begin(), flags.end());
+    return more;
+  };
+  const LayeredImage baked = bench.bake(blend, with(of_bake)).lightmap("smooth_cylinder");
+  const LayeredImage traced = bench.reference(blend, with(of_reference)).lightmap("smooth_cylinder");
   const FloatImage &ours = traced.find("")->pixels, &theirs = baked.find("")->pixels;
   double squares = 0, sum = 0;
   for (int y = 0; y < ours.height(); ++y) {
@@ -69,8 +71,22 @@ TEST(Reference, AveragesOverTheSamePlacesAsThisBlender) {
       sum += value;
     }
   }
-  const double count = double(ours.width()) * ours.height();
-  EXPECT_LT(std::sqrt(squares / count) / (sum / count), 0.005);
+  return std::sqrt(squares * double(ours.width()) * ours.height()) / sum;
+}
+
+// The normals turn by 45 degrees within a texel: what a texel averages over, and what becomes of samples past
+// a face's edge, decides most of its value. No other choice of the two comes below 1 %.
+TEST(Reference, AveragesOverTheSamePlacesAsThisBlender) {
+  Workbench bench(RNMBAKE_BINARY, {});
+  EXPECT_LT(cylinder_difference(bench, {"--resolution", "32"}, {}, {}), 0.005);
+}
+
+// The sun stands under many faces and above their normals' horizons: 30 % without that light.
+TEST(Reference, LightFromBelowIsWhatThisBlenderLetsBy) {
+  Workbench bench(RNMBAKE_BINARY, {});
+  EXPECT_LT(cylinder_difference(bench, {"--resolution", "64"}, {"--recipe", "flat-normal-map"},
+                                {"--model", "flat-normal-map"}),
+            0.005);
 }
 
 // The same scene again from its .rnmscene, without a Blender: the same bytes.
