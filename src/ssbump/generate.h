@@ -27,7 +27,7 @@ struct GenerateOptions {
   const FloatImage* albedo_map = nullptr;     // first channel, of the height field's size
   std::uint64_t seed = 0;                     // of the rays
   int threads = 0;                            // 0: all cores
-  std::size_t memory = std::size_t{1} << 30;  // bytes that generate_rows() may take beside the heights
+  std::size_t memory = std::size_t{2} << 30;  // bytes that generate_rows() may take beside the heights
 };
 
 /// Deterministic for a seed at any number of threads. Heights must be finite. `progress` receives the share

@@ -7,8 +7,8 @@
 
 namespace rnmbake {
 
-/// What lies beyond a border, for each axis: the map again, the map mirrored, or nothing that casts a shadow
-/// (the border's height goes on).
+/// What lies beyond a border, for each axis: the map again, the map mirrored (with the border's texels
+/// twice), or nothing new: the border's heights go on.
 enum class Beyond : std::uint8_t { wrap, mirror, none };
 
 /// Heights in texels (the distance of two neighbours is 1), one channel, row 0 on top. The surface is made of

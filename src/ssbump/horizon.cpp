@@ -1,0 +1,128 @@
+#include "ssbump/horizon.h"
+
+#include "ssbump/horizon_sweep.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace rnmbake {
+namespace {
+
+constexpr int least_period = 32;  // fewer steps hold too few slopes of lines that run into themselves
+constexpr int block = 32;         // side of the squares that are transposed at once
+
+GridAxis axis_of(int size, Beyond beyond, int least) {
+  GridAxis axis{size, size, beyond};
+  if (beyond == Beyond::mirror) axis.period = 2 * size;
+  if (beyond != Beyond::none) axis.period *= (least + axis.period - 1) / axis.period;
+  return axis;
+}
+
+/// to[x * height + y] = from[y * pitch + x] for all x, y, block by block.
+void transpose(const float* from, std::size_t pitch, int width, int height, float* to) {
+  tbb::parallel_for(0, (width + block - 1) / block, [&](int column) {
+    const int left = column * block, right = std::min(width, left + block);
+    for (int top = 0; top < height; top += block) {
+      for (int x = left; x < right; ++x) {
+        for (int y = top; y < std::min(height, top + block); ++y)
+          to[std::size_t(x) * height + y] = from[std::size_t(y) * pitch + x];
+      }
+    }
+  });
+}
+
+/// A sweep over all azimuths of one grid.
+class Sweeps {
+ public:
+  Sweeps(const GenerateOptions& options, const std::function<void()>& say, const std::function<bool()>& stop)
+      : options_(options), say_(say), stop_(stop) {}
+
+  void run(const HorizonGrid& grid, const std::vector<Azimuth>& azimuths, SweepTarget& target) {
+    target.planes = options_.power == 1 ? SsbumpWeights::channels - 1 : SsbumpWeights::channels;
+    target.clear();
+    for (const Azimuth& azimuth : azimuths) {
+      if (stop_ && stop_()) return;
+      SweepLines lines = lines_of(grid, azimuth);
+      const SweepJob job{grid, azimuth, lines, target, options_.near_rows, options_.power == 1};
+      if (grid.steps.repeats()) {
+        tbb::parallel_for(0, lines.groups(), [&](int group) { find_highest(job, group); });
+        lines.highest_of_all = *std::ranges::max_element(lines.highest);
+      }
+      tbb::parallel_for(0, lines.groups(), [&](int group) { sweep_group(job, group, scratch_.local()); });
+      say_();
+    }
+  }
+
+ private:
+  const GenerateOptions& options_;
+  const std::function<void()>& say_;
+  const std::function<bool()>& stop_;
+  tbb::enumerable_thread_specific<SweepScratch> scratch_;
+};
+
+/// Both sums together, channels interleaved.
+SsbumpWeights together(const SweepTarget& by_rows, const SweepTarget& by_columns) {
+  const int width = static_cast<int>(by_rows.pitch()), height = static_cast<int>(by_columns.pitch());
+  SsbumpWeights weights{FloatImage(width, height, SsbumpWeights::channels)};
+  std::vector<float>& out = weights.image.data();
+  constexpr auto channels = std::size_t{SsbumpWeights::channels};
+  tbb::parallel_for(0, (height + block - 1) / block, [&](int row) {
+    for (int left = 0; left < width; left += block) {
+      for (int y = row * block; y < std::min(height, (row + 1) * block); ++y) {
+        for (int x = left; x < std::min(width, left + block); ++x) {
+          float* texel = &out[(std::size_t(y) * width + x) * channels];
+          for (std::size_t c = 0; c < channels; ++c) {
+            const std::size_t plane = std::min(c, std::size_t(by_rows.planes) - 1);
+            const float sum = by_rows.sums[plane * by_rows.plane() + std::size_t(y) * width + x] +
+                              by_columns.sums[plane * by_columns.plane() + std::size_t(x) * height + y];
+            texel[c] = std::clamp(sum, 0.0F, 1.0F);
+          }
+        }
+      }
+    }
+  });
+  return weights;
+}
+
+}  // namespace
+
+SsbumpWeights horizon_rows(const HeightField& field, const GenerateOptions& options, int first_row,
+                           int last_row, const std::function<void(double)>& progress,
+                           const std::function<bool()>& stop) {
+  const int width = field.width(), height = field.height();
+  HorizonGrid by_rows, by_columns;
+  by_rows.heights = field.heights.data().data();
+  by_rows.steps = axis_of(height, field.y, least_period);
+  by_rows.lines = axis_of(width, field.x, 1);
+  by_columns.steps = axis_of(width, field.x, least_period);
+  by_columns.lines = axis_of(height, field.y, 1);
+  by_columns.transposed = true;
+
+  SweepTarget rows, columns;
+  rows.first_step = columns.first_line = first_row;
+  rows.last_step = columns.last_line = last_row;
+  rows.last_line = columns.last_step = width;
+  const AzimuthSets azimuths =
+      make_azimuths(by_rows, by_columns, {options.azimuths, options.near_rows, options.power});
+
+  const double all = static_cast<double>(azimuths.by_rows.size() + azimuths.by_columns.size());
+  double done = 0;
+  const std::function<void()> say = [&] {
+    if (progress) progress(++done / all);
+  };
+  Sweeps sweeps(options, say, stop);
+  sweeps.run(by_rows, azimuths.by_rows, rows);
+  {
+    std::vector<float> transposed(field.heights.texels());
+    transpose(by_rows.heights, std::size_t(width), width, height, transposed.data());
+    by_columns.heights = transposed.data();
+    sweeps.run(by_columns, azimuths.by_columns, columns);
+  }
+  return together(rows, columns);
+}
+
+}  // namespace rnmbake

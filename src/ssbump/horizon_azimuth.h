@@ -1,0 +1,69 @@
+// ssbump/horizon_azimuth.h - the directions of a horizon sweep, and what each counts for.
+#pragma once
+
+#include "ssbump/horizon_grid.h"
+#include "ssbump/weights.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rnmbake {
+
+/// What a texel sees along one direction in the plane counts for in the five channels, as shares of what the
+/// whole open sky counts for.
+struct AzimuthLobes {
+  static constexpr int table_steps = 256;
+
+  struct Linear {
+    float along = 0, up = 0;        // times Elevation's
+    float begins = 0, at_most = 0;  // below this slope the lobe is 0: there it counts for so much
+  };
+  std::array<Linear, SsbumpWeights::channels> linear;
+  /// By the sine of the horizon, for powers other than 1: channels 0 to 3, table_steps + 2 entries each.
+  std::vector<float> table;
+};
+
+/// One place of the surface about a texel: between two heights, `part` of the way from a to b; the slope to
+/// it is the height over the texel times `per_height`.
+struct NearTap {
+  int step_a = 0, line_a = 0, step_b = 0, line_b = 0;
+  float part = 0, per_height = 0;
+};
+
+/// A direction and its opposite, as lines over a grid: with each step they move aside by slope <= 1.
+struct Azimuth {
+  int shift = 0;                      // lines over one period of steps, where they repeat
+  std::int64_t aside = 0, steps = 1;  // the slope: so many lines aside in so many steps
+  double slope = 0;
+  std::vector<int> whole, nearest;  // of each step: how far aside, rounded down; to the nearest
+  std::vector<float> part;          // what rounding down took away
+  float per_step = 0;               // 1 / length of a step
+  struct Way {
+    std::vector<NearTap> taps;
+    AzimuthLobes lobes;
+  };
+  std::array<Way, 2> ways;  // forth and back
+};
+
+struct AzimuthOptions {
+  int azimuths = 64, near_rows = 8;
+  double power = 1;
+};
+
+/// Rounds down.
+[[nodiscard]] inline std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+  return a / b - (a % b < 0 ? 1 : 0);
+}
+
+/// All azimuths of both grids (steps along rows and along columns), each with its opposite. Slopes are whole
+/// numbers of lines for one period, an even number where it can be: then lines run into themselves behind a
+/// border, and a tile moved by half its size has the same ones. Each azimuth counts for the angles that are
+/// nearer to it than to the next.
+struct AzimuthSets {
+  std::vector<Azimuth> by_rows, by_columns;
+};
+[[nodiscard]] AzimuthSets make_azimuths(const HorizonGrid& by_rows, const HorizonGrid& by_columns,
+                                        const AzimuthOptions& options);
+
+}  // namespace rnmbake
