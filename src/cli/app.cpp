@@ -14,6 +14,7 @@
 #include "cli/nms.h"
 #include "cli/reference.h"
 #include "cli/render.h"
+#include "cli/ssbump.h"
 #include "cli/validate.h"
 #include "pipeline/workspace.h"
 
@@ -50,6 +51,7 @@ constexpr const char* examples =
     "  rnmbake compare lightmaps truth -o report        how far apart are the two?\n"
     "  rnmbake render hall.blend --lightmaps lightmaps -o view.png\n"
     "  rnmbake decode lightmaps/floor.exr --normal n.png -o lit.exr\n"
+    "  rnmbake ssbump bricks_height.png -o bricks_ssbump.png\n"
     "\n"
     "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"
     "4 no usable Blender, 5 unsupported, 6 some objects failed, 7 threshold exceeded, 8 locked.";
@@ -89,8 +91,15 @@ constexpr const char* about_compare =
     "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
     "confidence interval. Exit code 7 says that a limit of --fail-above was exceeded.";
 
+constexpr const char* about_ssbump =
+    "\n\nStores, for each texel of a height map, how much of the light along each of the three axes of the\n"
+    "Half-Life 2 basis arrives past the heights around it. A shader then needs no normal map: light is the\n"
+    "sum of channel times lightmap. Height, --wrap and --handed decide what comes out; --alpha up adds a\n"
+    "fourth direction. A word in place of INPUT names a tool for maps that are already there.";
+
 constexpr const char* about_nms =
-    "\n\nBoris Vorontsov's method (2020): from each texel the normals are walked towards the light, and where "
+    "\n\nBoris Vorontsov's method (2020): from each texel the normals are walked towards the light, and "
+    "where "
     "they\n"
     "rise over its ray there is shadow. No height map is needed, but the normals have to be those of a "
     "surface:\n"
@@ -120,6 +129,7 @@ const std::vector<Command>& commands() {
       {"render", add_render_command, about_render},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
+      {"ssbump", add_ssbump_command, about_ssbump},
       {"nms", add_nms_command, about_nms},
   };
   return all;
@@ -144,14 +154,18 @@ struct GlobalFlags {
   }
 };
 
-CLI::App* chosen(CLI::App& app) {
-  const auto parsed = app.get_subcommands();
-  return parsed.empty() ? nullptr : parsed.front();
+/// The command that was given, and the one below it where it has some.
+std::vector<CLI::App*> chosen(CLI::App& app) {
+  std::vector<CLI::App*> commands;
+  for (auto parsed = app.get_subcommands(); !parsed.empty(); parsed = commands.back()->get_subcommands())
+    commands.push_back(parsed.front());
+  return commands;
 }
 
 std::string help_hint(CLI::App& app) {
-  const CLI::App* command = chosen(app);
-  return fmt::format("see 'rnmbake {}--help'", command == nullptr ? "" : command->get_name() + " ");
+  std::string words;
+  for (const CLI::App* command : chosen(app)) words += command->get_name() + " ";
+  return fmt::format("see 'rnmbake {}--help'", words);
 }
 
 std::vector<std::string> long_flags(const CLI::App& app) {
@@ -176,18 +190,17 @@ void refuse_leftovers(CLI::App& app) {
   const std::vector<std::string> left = app.remaining(true);
   const auto is_flag = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
   const auto flag = std::find_if(left.begin(), left.end(), is_flag);
-  CLI::App* command = chosen(app);
+  const std::vector<CLI::App*> commands_given = chosen(app);
   if (flag != left.end()) {
     const std::string name = flag->substr(0, flag->find('='));
     std::vector<std::string> known = long_flags(app);
-    if (command != nullptr) {
+    for (const CLI::App* command : commands_given)
       for (std::string& one : long_flags(*command)) known.push_back(std::move(one));
-    }
     const std::string hint = did_you_mean(name, known);
     fail(ExitCode::usage, "unknown flag '{}'{}", name, hint.empty() ? "; " + help_hint(app) : hint);
   }
-  if (command == nullptr && !left.empty()) unknown_command(left.front());
-  if (command == nullptr) fail(ExitCode::usage, "no command given; {}", help_hint(app));
+  if (commands_given.empty() && !left.empty()) unknown_command(left.front());
+  if (commands_given.empty()) fail(ExitCode::usage, "no command given; {}", help_hint(app));
   if (!left.empty()) fail(ExitCode::usage, "unexpected argument '{}'; {}", left.front(), help_hint(app));
 }
 

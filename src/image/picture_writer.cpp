@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {
@@ -39,23 +40,22 @@ OIIO::TypeDesc type_of(Storage storage) {
   return types[static_cast<std::size_t>(storage)];
 }
 
+/// Only EXR has numbers among its attributes.
+Attribute fitting(const std::string& ending, const Attribute& value) {
+  if (ending == ".exr") return value;
+  if (const auto* whole = std::get_if<int>(&value)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<float>(&value)) return fmt::format("{}", *number);
+  if (const auto* list = std::get_if<std::vector<float>>(&value))
+    return fmt::format("{}", fmt::join(*list, ","));
+  return value;
+}
+
 OIIO::ImageSpec spec_of(const std::string& ending, const PictureForm& form) {
   OIIO::ImageSpec spec(form.width, form.height, static_cast<int>(form.channels.size()),
                        type_of(form.storage));
   spec.channelnames = form.channels;
   spec.alpha_channel = form.channels.size() == 4 ? 3 : -1;
-  for (const auto& [name, value] : form.attributes) {
-    const bool is_text = std::holds_alternative<std::string>(value);
-    if (ending == ".exr" || is_text) set_attribute(spec, name, value);
-    if (ending != ".exr" && !is_text) {
-      std::visit(
-          [&](const auto& number) {
-            if constexpr (std::is_arithmetic_v<std::decay_t<decltype(number)>>)
-              spec.attribute(name, fmt::format("{}", number));
-          },
-          value);
-    }
-  }
+  for (const auto& [name, value] : form.attributes) set_attribute(spec, name, fitting(ending, value));
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("DateTime", "");  // or EXR stores the time of day, and two equal runs would differ
   if (ending == ".exr" || ending.starts_with(".tif")) spec.attribute("compression", "zip");

@@ -65,12 +65,12 @@ class Channels {
     const auto [parsed, error] = std::from_chars(wanted.data(), end, at);
     if (error == std::errc() && parsed == end && at >= 0 && at < static_cast<int>(names_.size()))
       return single(at);
-    const std::string hint = did_you_mean(wanted, names_);
+    const bool is_number = wanted.find_first_not_of("0123456789") == std::string::npos;
+    const std::string hint = is_number ? "" : did_you_mean(wanted, names_);
     const std::string there = names_.size() == 1 ? "its only channel is " + names_[0]
                                                  : fmt::format("its channels are {} (or 0 to {})",
                                                                fmt::join(names_, ", "), names_.size() - 1);
-    fail(ExitCode::usage, "{} has no channel '{}'{}{} {}", file_, wanted, hint, hint.empty() ? ";" : "",
-         there);
+    fail(ExitCode::usage, "{} has no channel '{}'{} {}", file_, wanted, hint.empty() ? ";" : hint, there);
   }
 
   std::vector<std::string> names_;

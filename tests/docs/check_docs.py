@@ -67,6 +67,12 @@ def flags_in(text):
     return set(FLAG.findall(expanded))
 
 
+def commands_in(text):
+    """What a help lists under Subcommands."""
+    _, _, listed = text.partition("Subcommands:")
+    return re.findall(r"^  ([a-z-]+) ", listed.split("Examples:")[0], flags=re.MULTILINE)
+
+
 def load(path):
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
@@ -81,12 +87,16 @@ class Documentation(unittest.TestCase):
         done = subprocess.run([self.binary, *command, "--help"], check=True, stdout=subprocess.PIPE, encoding="utf-8")
         return done.stdout
 
+    def flags_below(self, *command):
+        """Flags of a command and of those below it."""
+        text = self.help_of(*command)
+        below = commands_in(text)
+        return flags_in(text).union(*(self.flags_below(*command, name) for name in below))
+
     def flags_by_command(self):
         overview = self.help_of()
-        listed = overview.split("Subcommands:")[1].split("Examples:")[0]
-        commands = re.findall(r"^  ([a-z]+) ", listed, flags=re.MULTILINE)
-        common = flags_in(overview)
-        return {name: common | flags_in(self.help_of(name)) | HIDDEN_FLAGS for name in commands}
+        common = flags_in(overview) | HIDDEN_FLAGS
+        return {name: common | self.flags_below(name) for name in commands_in(overview)}
 
     def test_links_lead_somewhere(self):
         for page in pages():
