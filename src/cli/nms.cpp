@@ -113,7 +113,8 @@ BakedLight baked_light(const std::filesystem::path& file) {
   const LayeredImage image = read_image(file);
   const auto refuse = [&](const std::string& why) {
     fail(ExitCode::unsupported,
-         "{} does not tell the direction of its light: {}; bake flat and the Half-Life 2 basis",
+         "{} does not tell the direction of its light: {}; bake flat and the Half-Life 2 basis, not "
+         "normalized",
          file.string(), why);
   };
   if (!has_metadata(image)) refuse("its header names no convention");
@@ -123,7 +124,8 @@ BakedLight baked_light(const std::filesystem::path& file) {
   if (lightmap.flat.empty()) refuse("it has no flat layer");
   if (std::ranges::any_of(lightmap.rnm, &FloatImage::empty)) refuse("a layer of rnm0, rnm1, rnm2 is missing");
   check_finite(lightmap.flat, "flat", file);
-  for (const FloatImage& map : lightmap.rnm) check_finite(map, "rnm", file);
+  for (std::size_t i = 0; i < 3; ++i)
+    check_finite(lightmap.rnm[i], rnm_set().directions[i].name.c_str(), file);
   return {std::move(lightmap.flat), std::move(lightmap.rnm), std::move(lightmap.coverage),
           metadata.green == Green::y_down};
 }
@@ -135,7 +137,8 @@ SlopeCurl curl_of(const Options& options, const FloatImage& normals, int scale) 
 /// A green channel that points the other way shows in the slopes.
 void warn_of_green(const Options& options, const FloatImage& normals) {
   const SlopeCurl curl = curl_of(options, normals, 1);
-  if (curl.relative_flipped * 1.5 > curl.relative) return;
+  constexpr double kRounding = 0.01;  // what 8 bits make of flat normals is less
+  if (curl.rms < kRounding || curl.relative_flipped * 1.5 > curl.relative) return;
   log::warn("{}: its slopes fit together better with --green {}; is green right?", options.normal.string(),
             options.format.y_down ? "up" : "down");
 }

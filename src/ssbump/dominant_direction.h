@@ -14,7 +14,7 @@ namespace rnmbake {
 /// E(n)/pi = ambient + gradient . n, for each of R, G, B: an SH-2 fit of irradiance.
 struct LinearLight {
   std::array<float, 3> ambient{};
-  std::array<Vec3, 3> gradient{};
+  std::array<Vec3, 3> gradient{Vec3(0), Vec3(0), Vec3(0)};
 
   [[nodiscard]] float at(std::size_t colour, const Vec3& n) const {
     return ambient[colour] + gradient[colour].dot(n);
