@@ -8,7 +8,6 @@ namespace {
 
 constexpr double reach_of_range = 64;
 constexpr int most_periods = 16;
-constexpr float skirt_periods = 1000;
 
 /// A row or column of vertices: where it stands, and between which texels.
 struct Line {
@@ -17,16 +16,26 @@ struct Line {
   float share = 0;  // of the second
 };
 
+/// Places past a border that goes on, each twice as far as the one before: long and narrow triangles are not
+/// exact in single precision.
+std::vector<float> skirt_of(double reach) {
+  std::vector<float> places;
+  for (double step = 1, place = 0; place < reach; step *= 2)
+    places.push_back(static_cast<float>(place += step));
+  return places;
+}
+
 /// Of whole texels; the ones on both ends belong to what lies beyond.
-std::vector<Line> texel_lines(int count, Beyond beyond) {
+std::vector<Line> texel_lines(int count, Beyond beyond, double reach) {
   std::vector<Line> lines;
-  const float skirt = skirt_periods * static_cast<float>(count);
-  if (beyond == Beyond::none) lines.push_back({-skirt, 0});
+  const auto last = static_cast<float>(count - 1);
+  const std::vector<float> skirt = beyond == Beyond::none ? skirt_of(reach) : std::vector<float>{};
+  for (auto place = skirt.rbegin(); place != skirt.rend(); ++place) lines.push_back({-*place, 0});
   if (beyond == Beyond::mirror) lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned
   for (int i = 0; i < count; ++i) lines.push_back({static_cast<float>(i), i});
-  if (beyond == Beyond::none) lines.push_back({static_cast<float>(count - 1) + skirt, count - 1});
-  if (beyond == Beyond::wrap) lines.push_back({static_cast<float>(count), 0});
-  if (beyond == Beyond::mirror) lines.push_back({static_cast<float>(count), count - 1});
+  for (const float place : skirt) lines.push_back({last + place, count - 1});
+  if (beyond == Beyond::wrap) lines.push_back({last + 1, 0});
+  if (beyond == Beyond::mirror) lines.push_back({last + 1, count - 1});
   return lines;
 }
 
@@ -38,8 +47,8 @@ std::vector<float> cells_of(PatchCuts cuts) {
   return {0, narrow, 0.25F, 0.75F, 1 - narrow};
 }
 
-std::vector<Line> lines_of(int count, Beyond beyond, PatchCuts cuts) {
-  const std::vector<Line> whole = texel_lines(count, beyond);
+std::vector<Line> lines_of(int count, Beyond beyond, double reach, PatchCuts cuts) {
+  const std::vector<Line> whole = texel_lines(count, beyond, reach);
   std::vector<Line> lines;
   for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
     const Line &a = whole[i], &b = whole[i + 1];
@@ -84,8 +93,9 @@ std::vector<Placed> placed(int count, Beyond beyond, double reach) {
 }  // namespace
 
 HeightMesh height_mesh(const HeightField& field, PatchCuts cuts) {
-  const std::vector<Line> columns = lines_of(field.width(), field.x, cuts);
-  const std::vector<Line> rows = lines_of(field.height(), field.y, cuts);
+  const double reach = useful_reach(field);
+  const std::vector<Line> columns = lines_of(field.width(), field.x, reach, cuts);
+  const std::vector<Line> rows = lines_of(field.height(), field.y, reach, cuts);
   HeightMesh mesh;
   for (const Line& row : rows) {
     for (const Line& column : columns)

@@ -28,7 +28,7 @@ struct HeightCopy {
 enum class PatchCuts { one, three, five };
 
 /// One period of the field with the patches that join it to the next. Along an axis that nothing lies beyond
-/// the border's heights go on for a thousand periods. Where heights change by a texel from one to the next,
+/// the border's heights go on as far as useful_reach(). Where heights change by a texel from one to the next,
 /// weights differ from the bilinear surface's by some 0.005 with one cell a patch, by less than 0.001 with
 /// five.
 [[nodiscard]] HeightMesh height_mesh(const HeightField& field, PatchCuts cuts = PatchCuts::five);

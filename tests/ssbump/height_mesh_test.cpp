@@ -1,6 +1,7 @@
 #include "ssbump/height_mesh.h"
 
 #include "ssbump/generate.h"
+#include "ssbump/hemisphere_rays.h"
 #include "ssbump/low_high.h"
 #include "ssbump/triangle_tree.h"
 
@@ -136,6 +137,55 @@ TEST(HeightMesh, AsAMeshItHasTheWeightsOfTheHeightField) {
     }
     EXPECT_LT(squares / count, 1.2) << channel;
     EXPECT_LT(std::abs(sum / count), 0.002) << channel;
+  }
+}
+
+/// The share of each channel that rays from just over a texel's centre find open.
+SsbumpChannels seen_from(const TriangleTree& tree, const Vec3& place, const std::vector<WeightedRay>& rays) {
+  std::array<double, SsbumpWeights::channels> seen{}, all{};
+  for (const WeightedRay& ray : rays) {
+    const bool open = !tree.blocked(place, ray.direction, 1e9F);
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      all[c] += ray.weight[c];
+      if (open) seen[c] += ray.weight[c];
+    }
+  }
+  SsbumpChannels shares{};
+  for (std::size_t c = 0; c < all.size(); ++c) shares[c] = static_cast<float>(seen[c] / all[c]);
+  return shares;
+}
+
+TEST(HeightMesh, SeesWhatTracedTexelsSeeWhateverLiesBeyond) {
+  constexpr int count = 8192;
+  const HemisphereRays rays(count, 1, 3);
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    HeightField field{FloatImage(9, 6, 1), beyond, beyond};
+    for (int y = 0; y < 6; ++y) {
+      for (int x = 0; x < 9; ++x)
+        field.heights.texel(x, y)[0] = float(2 * std::sin(0.8 * x) + 1.5 * std::cos(0.9 * y));
+    }
+    GenerateOptions traced;
+    traced.method = SsbumpMethod::trace;
+    traced.rays = count;
+    const SsbumpWeights truth = generate(field, traced);
+    const TriangleTree tree(all_copies(field, 60, PatchCuts::five).position);
+    double squares = 0, variances = 0, n = 0;
+    for (int y = 0; y < 6; ++y) {
+      for (int x = 0; x < 9; ++x) {
+        const Vec3 place(float(x), float(-y), field.heights.texel(x, y)[0] + 1e-5F);
+        const SsbumpChannels shares = seen_from(tree, place, rays.set(std::uint64_t(x + y)));
+        for (std::size_t c = 0; c < shares.size(); ++c) {
+          const double s = truth.image.texel(x, y)[c], off = shares[c] - s;
+          const double variance = std::max(s * (1 - s), 1e-3) * 2 / count;
+          EXPECT_LT(std::abs(off), 5 * std::sqrt(variance)) << x << ' ' << y;
+          squares += off * off;
+          variances += variance;
+          ++n;
+        }
+      }
+    }
+    // No more than that noise, and 0.001 for triangles instead of bilinear patches.
+    EXPECT_LT(squares / n, variances / n + 1e-6) << int(beyond);
   }
 }
 
