@@ -258,6 +258,7 @@ void add_light(CLI::App& command, Options& options) {
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(1, 4096).description(""))
+      ->needs("--lightmap")
       ->type_name("U,V");
 }
 
@@ -280,7 +281,7 @@ void add_parameters(CLI::App& command, Options& options) {
       "dot(light, n): finds more of the shadows. An extension of ours");
   command.add_flag("--jitter", options.jitter,
                    "each texel starts a random part of a step earlier: noise, not bands");
-  command.add_option("--seed", options.seed, "of --jitter [0]")->type_name("N");
+  command.add_option("--seed", options.seed, "of --jitter [0]")->needs("--jitter")->type_name("N");
 }
 
 void add_results(CLI::App& command, Options& options) {
@@ -289,7 +290,8 @@ void add_results(CLI::App& command, Options& options) {
           "-o,--output", options.output,
           "what to write: the share of the light that is left, as data (.png, .tif, or .exr in floats)")
       ->type_name("FILE");
-  command.add_flag("--lit", options.lit, "write that share times the cosine between light and normal");
+  command.add_flag("--lit", options.lit, "write that share times the cosine between light and normal")
+      ->needs("--light");
   command.add_option("--bits", options.bits, "of .png and .tif [8]")
       ->check(CLI::IsMember({8, 16}).description(""))
       ->type_name("8|16");
@@ -299,8 +301,10 @@ void add_results(CLI::App& command, Options& options) {
   command
       .add_option("--bound", options.bound, "with --check: count the texels with more curl than this [0.1]")
       ->check(CLI::NonNegativeNumber.description(""))
+      ->needs("--check")
       ->type_name("CURL");
-  command.add_flag("--json", options.json, "with --check: one JSON object instead of the text");
+  command.add_flag("--json", options.json, "with --check: one JSON object instead of the text")
+      ->needs("--check");
 }
 
 }  // namespace
