@@ -10,7 +10,9 @@ namespace rnmbake {
 namespace {
 
 constexpr int kept_rays = 1 << 18;  // of all sets together
-constexpr int most_sets = 64;
+constexpr int most_sets = 256;
+/// Steps of Roberts' R2 sequence: the sets together are spread as evenly as each is.
+constexpr double plastic = 0.7548776662466927;
 
 /// The digits of a number in base 2, mirrored at the point: in [0, 1).
 double radical_inverse(std::uint32_t index) {
@@ -33,12 +35,12 @@ SsbumpChannels weights_of(const Vec3& direction, double power) {
           raised(direction.z), std::max(0.0F, direction.z)};
 }
 
-/// `over` and `round` in [0, 1): where the set is moved to.
+/// `over` and `round` in [0, 1): where in its ring of solid angle a ray lies, and how far the set is turned.
 std::vector<WeightedRay> make_set(int rays, double power, double over, double round) {
   std::vector<WeightedRay> set;
   set.reserve(static_cast<std::size_t>(rays));
   for (int i = 0; i < rays; ++i) {
-    const double z = wrapped((i + 0.5) / rays + over);  // uniform in solid angle
+    const double z = (i + over) / rays;  // uniform in solid angle
     const double angle = 2 * pi * wrapped(radical_inverse(static_cast<std::uint32_t>(i)) + round);
     const double r = std::sqrt(std::max(0.0, 1 - z * z));
     const Vec3 direction(Vec3d(r * std::cos(angle), r * std::sin(angle), z));
@@ -53,10 +55,10 @@ HemisphereRays::HemisphereRays(int rays, double power, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   const int count = std::clamp(kept_rays / rays, 2, most_sets);
-  for (int i = 0; i < count; ++i) {
-    const double over = uniform(random), round = uniform(random);
-    sets_.push_back(make_set(rays, power, over, round));
-  }
+  const double over = uniform(random), round = uniform(random);
+  for (int i = 0; i < count; ++i)
+    sets_.push_back(
+        make_set(rays, power, wrapped(over + i * plastic), wrapped(round + i * plastic * plastic)));
 }
 
 }  // namespace rnmbake

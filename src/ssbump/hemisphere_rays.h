@@ -19,9 +19,9 @@ struct WeightedRay {
   SsbumpChannels weight;
 };
 
-/// Several sets of rays, evenly spread over the upper hemisphere (a Hammersley set each, moved and turned at
-/// random). Neighbouring texels take different ones, so that what a set gets wrong does not show as a
-/// pattern. Every set sums to the whole hemisphere in each channel, so that an unoccluded texel is 1 exactly.
+/// Several sets of rays, evenly spread over the upper hemisphere (a Hammersley set each, moved and turned).
+/// Neighbouring texels take different ones, so that what a set gets wrong does not show as a pattern. Every
+/// set sums to the whole hemisphere in each channel, so that an unoccluded texel is 1 exactly.
 class HemisphereRays {
  public:
   HemisphereRays(int rays, double power, std::uint64_t seed);

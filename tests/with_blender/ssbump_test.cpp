@@ -81,9 +81,12 @@ std::pair<double, double> mean_of(const FloatImage& image, std::size_t channel) 
   return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
 }
 
+/// Channel 0 with the wall on the right: tests/ssbump/mesh_occlusion_test.cpp.
+double lune() {
+  return (1 - std::sqrt(2.0 / 3)) / (1 + std::sqrt(1.0 / 3));
+}
+
 TEST_F(SsbumpFiles, EveryFormatGivesTheWallsClosedForm) {
-  const double lune =
-      (1 - std::sqrt(2.0 / 3)) / (1 + std::sqrt(1.0 / 3));  // tests/ssbump/mesh_occlusion_test.cpp
   for (const char* ending : {".blend", ".glb", ".obj"}) {
     const fs::path low = file(std::string("low") + ending);
     if (!fs::exists(low)) {
@@ -95,7 +98,7 @@ TEST_F(SsbumpFiles, EveryFormatGivesTheWallsClosedForm) {
     EXPECT_EQ(mesh.maps.surfaces[0].texels, 256U) << ending;
     EXPECT_EQ(mesh.maps.surfaces[0].missed, 0U) << ending;
     const auto [right, right_error] = mean_of(mesh.maps.weights.image, 0);
-    EXPECT_NEAR(right, lune, 4 * right_error) << ending;
+    EXPECT_NEAR(right, lune(), 4 * right_error) << ending;
     const auto [up, up_error] = mean_of(mesh.maps.weights.image, SsbumpWeights::up);
     EXPECT_NEAR(up, 0.5, 4 * up_error) << ending;
     const auto [left, left_error] = mean_of(mesh.maps.weights.image, 1);
@@ -111,6 +114,21 @@ TEST_F(SsbumpFiles, BothMeshesMayLieInOneFile) {
   }());
   EXPECT_EQ(mesh.objects, std::vector<std::string>{"low"});
   EXPECT_EQ(mesh.maps.surfaces[0].missed, 0U);
+}
+
+TEST_F(SsbumpFiles, MirroredObjectsKeepTheirFrontsAndTheirFrames) {
+  SsbumpMeshOptions options = options_for("both.blend", {"low"});
+  options.high_objects = {"turned"};
+  const SsbumpMesh turned = measure(options);
+  EXPECT_EQ(turned.maps.surfaces[0].behind, 0U);
+  const auto [right, right_error] = mean_of(turned.maps.weights.image, 0);
+  EXPECT_NEAR(right, lune(), 4 * right_error);
+
+  options.onto = {"mirrored"};
+  options.high_objects = {"detail"};
+  const auto [left, left_error] =
+      mean_of(measure(options).maps.weights.image, 0);  // u runs away from the wall
+  EXPECT_NEAR(left, 1 - lune(), 4 * left_error);
 }
 
 TEST_F(SsbumpFiles, WhatCannotBeMeasuredIsNamed) {

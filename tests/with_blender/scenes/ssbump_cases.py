@@ -1,7 +1,7 @@
 """blender -b --factory-startup --python ssbump_cases.py -- FOLDER: a low quad and the detail to put on it.
 
 detail.blend, .glb and .obj hold a floor with a long wall beside the quad, low.* the quad alone; both.blend holds the
-two together and an unwrapped, an overlapping and a far-off quad besides.
+two together, each once more mirrored, and an unwrapped, an overlapping and a far-off quad besides.
 """
 import os
 import sys
@@ -9,7 +9,8 @@ import sys
 import bpy
 
 SIDE = 1.0  # half of the quad's
-FAR = 2000.0
+FLOOR = 50.0
+FAR = 1e5  # of the wall: rays that pass beside it count for less than 1e-4
 
 
 def fresh():
@@ -34,15 +35,15 @@ SQUARE = [(-SIDE, -SIDE, 0), (SIDE, -SIDE, 0), (SIDE, SIDE, 0), (-SIDE, SIDE, 0)
 WHOLE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
-def add_low():
-    return add("low", SQUARE, [(0, 1, 2, 3)], WHOLE)
+def add_low(name="low"):
+    return add(name, SQUARE, [(0, 1, 2, 3)], WHOLE)
 
 
-def add_detail():
+def add_detail(name="detail"):
     """The wall stands at x = 2 and hides whatever lies towards +x."""
-    floor = [(-FAR, -FAR, 0), (FAR, -FAR, 0), (FAR, FAR, 0), (-FAR, FAR, 0)]
+    floor = [(-FLOOR, -FLOOR, 0), (FLOOR, -FLOOR, 0), (FLOOR, FLOOR, 0), (-FLOOR, FLOOR, 0)]
     wall = [(2, FAR, -1), (2, -FAR, -1), (2, -FAR, FAR), (2, FAR, FAR)]
-    return add("detail", floor + wall, [(0, 1, 2, 3), (4, 5, 6, 7)])
+    return add(name, floor + wall, [(0, 1, 2, 3), (4, 5, 6, 7)])
 
 
 def save(folder, name):
@@ -70,6 +71,8 @@ def main(folder):
     fresh()
     add_detail()
     add_low()
+    add_detail("turned").scale = (1, -1, 1)
+    add_low("mirrored").scale = (-1, 1, 1)
     add("bare", SQUARE, [(0, 1, 2, 3)])
     add("twice", SQUARE + [(x + 4, y, z) for x, y, z in SQUARE], [(0, 1, 2, 3), (4, 5, 6, 7)], WHOLE + WHOLE)
     add("far", SQUARE, [(0, 1, 2, 3)], WHOLE, location=(0, 0, 50))
