@@ -2,10 +2,9 @@
 import bpy
 
 from scene_ops.describe import describe_material
-from scene_ops.describe_nodes import active_output, reachable_nodes
 from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
-from scene_ops.see_through import glow_where_transparent, lets_light_through
+from scene_ops.see_through import glow_where_transparent, lets_light_through, surface_nodes
 
 # Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
 UNIFORM = {
@@ -61,11 +60,6 @@ class Source:
     def remove_copies(self):
         for copy in filter(None, (self.bakeable, self._window)):
             bpy.data.materials.remove(copy)
-
-
-def surface_nodes(material):
-    output = active_output(material) if material else None
-    return list(reachable_nodes(output.inputs["Surface"])) if output else []
 
 
 def is_uniform(node):

@@ -8,9 +8,18 @@ from scene_ops.describe_nodes import active_output, constant, is_zero, reachable
 
 def lets_light_through(material):
     """A tree that asks what kind of ray meets it is opaque here: no single number tells what it lets through."""
-    output = active_output(material) if material else None
-    nodes = list(reachable_nodes(output.inputs["Surface"])) if output else []
+    nodes = surface_nodes(material)
     return any(is_transparent(node) for node in nodes) and all(node.type != "LIGHT_PATH" for node in nodes)
+
+
+def has_transparency(material):
+    """For any ray at all."""
+    return any(is_transparent(node) for node in surface_nodes(material))
+
+
+def surface_nodes(material):
+    output = active_output(material) if material else None
+    return list(reachable_nodes(output.inputs["Surface"])) if output else []
 
 
 def is_transparent(node):
