@@ -300,7 +300,7 @@ void add_results(CLI::App& command, Options& options) {
       "print how far the normal map is from any surface: the curl of its slopes; writes nothing");
   command
       .add_option("--bound", options.bound, "with --check: count the texels with more curl than this [0.1]")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(CLI::Range(0.0, 1e6).description(""))
       ->needs("--check")
       ->type_name("CURL");
   command.add_flag("--json", options.json, "with --check: one JSON object instead of the text")

@@ -114,7 +114,7 @@ TEST(SsbumpMetadata, ComesBackFromEitherKindOfAttribute) {
   const auto all = attributes_of(metadata);
   const std::map<std::string, Attribute> description{{"ImageDescription", all.at("ImageDescription")}};
   std::string broken = std::get<std::string>(all.at("ImageDescription"));
-  for (std::size_t at = 80; at < broken.size(); at += 81) broken.insert(at, "\n");  // as TGA does
+  for (std::size_t at = 80; at < broken.size(); at += 81) broken.insert(at, 1, '\n');  // as TGA does
   const std::map<std::string, Attribute> lines{{"ImageDescription", Attribute(broken)}};
   auto parts = all;
   parts.erase("ImageDescription");
