@@ -21,7 +21,9 @@ RNM_LANES void look_above(Elevation<Width>& seen, const typename Lanes<Width>::F
   Float cosine, root;
   L::inverse_root(cosine, 1.0F + slope * slope);
   seen.sine = slope * cosine;
-  const Float z = seen.sine, rest = 1.0F - z > 0.0F ? 1.0F - z : Float{};
+  const Float z = seen.sine, zero{};
+  Float rest = 1.0F - z;
+  L::keep_larger(rest, zero);
   L::inverse_root(root, rest);
   const Float fitted =
       1.57079666F +

@@ -1,6 +1,7 @@
 #include "ssbump/generate.h"
 
 #include "base/error.h"
+#include "ssbump/generate_bounces.h"
 #include "ssbump/generate_rays.h"
 #include "ssbump/horizon.h"
 
@@ -26,14 +27,22 @@ void check(const HeightField& field, const GenerateOptions& options) {
          "the height map has values that are not finite (or past 1e9 texels): mend them first");
   if (options.azimuths < 1 || options.near_rows < 1 || options.rays < 1)
     fail(ExitCode::usage, "azimuths, near rows and rays must be at least 1");
+  const FloatImage* albedo = options.albedo_map;
+  if (albedo != nullptr && (albedo->width() != field.width() || albedo->height() != field.height()))
+    fail(ExitCode::invalid_input,
+         "the albedo map is {} x {}, the height map {} x {}: give one of the same size", albedo->width(),
+         albedo->height(), field.width(), field.height());
   if (!(options.power > 0)) fail(ExitCode::usage, "the power must be above 0");
 }
 
 SsbumpWeights some_rows(const HeightField& field, const GenerateOptions& options, int first_row, int last_row,
                         const std::function<void(double)>& progress, const std::function<bool()>& stop) {
-  return options.method == SsbumpMethod::horizon
-             ? horizon_rows(field, options, first_row, last_row, progress, stop)
-             : rays_rows(field, options, first_row, last_row, progress, stop);
+  SsbumpWeights weights = options.method == SsbumpMethod::horizon
+                              ? horizon_rows(field, options, first_row, last_row, progress, stop)
+                              : rays_rows(field, options, first_row, last_row, progress, stop);
+  if (options.bounces > 0 && options.method != SsbumpMethod::cone)
+    add_bounces(field, options, first_row, weights, stop);
+  return weights;
 }
 
 /// How many rows at once keep within the memory.

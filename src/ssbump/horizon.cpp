@@ -12,7 +12,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int least_period = 32;  // fewer steps hold too few slopes of lines that run into themselves
+constexpr int least_period = 128;  // fewer steps hold too few slopes of lines that run into themselves
 constexpr int block = 32;         // side of the squares that are transposed at once
 
 GridAxis axis_of(int size, Beyond beyond, int least) {

@@ -41,7 +41,7 @@ void lay_lines(Azimuth& azimuth, const GridAxis& steps) {
 
 /// Where a ray leaves the texel, and where it crosses the lines between texels up to `rows` steps away. The
 /// surface is straight along all of these but the first, whose slope is that of the tangent.
-std::vector<NearTap> near_taps(double slope, int sign, int rows) {
+std::vector<NearTap> near_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
   const double aside = sign * slope, steep = std::abs(slope);
   const int side = aside < 0 ? -1 : 1;
   std::vector<NearTap> taps;
@@ -58,6 +58,10 @@ std::vector<NearTap> near_taps(double slope, int sign, int rows) {
     taps.push_back({sign * row, side * line, sign * (row + 1), side * line, static_cast<float>(way - row),
                     static_cast<float>(1 / way)});
   }
+  for (NearTap& tap : taps) {
+    tap.a = tap.step_a * pitch + tap.line_a;
+    tap.b = tap.step_b * pitch + tap.line_b;
+  }
   return taps;
 }
 
@@ -69,7 +73,8 @@ std::vector<Azimuth> lay_azimuths(const HorizonGrid& grid, const AzimuthOptions&
     azimuth.slope = std::tan(pi / 2 * ((i + 0.5) / count - 0.5));
     lay_lines(azimuth, grid.steps);
     for (const int sign : {1, -1})
-      azimuth.ways[sign > 0 ? 0 : 1].taps = near_taps(azimuth.slope, sign, options.near_rows);
+      azimuth.ways[sign > 0 ? 0 : 1].taps =
+          near_taps(azimuth.slope, sign, options.near_rows, grid.lines.size);
   }
   return set;
 }

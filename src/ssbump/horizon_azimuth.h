@@ -5,6 +5,7 @@
 #include "ssbump/weights.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct AzimuthLobes {
 struct NearTap {
   int step_a = 0, line_a = 0, step_b = 0, line_b = 0;
   float part = 0, per_height = 0;
+  std::ptrdiff_t a = 0, b = 0;  // the same in memory
 };
 
 /// A direction and its opposite, as lines over a grid: with each step they move aside by slope <= 1.

@@ -57,8 +57,8 @@ class GroupSweep {
   RNM_LANES void both_ways(SweepScratch& scratch) {
     const SweepTarget& target = job_.target;
     int first = target.first_step, last = target.last_step;
-    while (first < last && !wanted(first)) ++first;
-    while (first < last && !wanted(last - 1)) --last;
+    while (first < last && !wanted(texel_line(first))) ++first;
+    while (first < last && !wanted(texel_line(last - 1))) --last;
     if (first == last) return;
     scratch.slopes.resize(static_cast<std::size_t>(period_) * count);
     one_way<1>(scratch, first, last);
@@ -100,7 +100,7 @@ class GroupSweep {
   /// The texel that lane 0 stands on at a step.
   RNM_LANES int texel_line(int step) const {
     const int line = start_ + azimuth_.nearest[static_cast<std::size_t>(step)];
-    return grid_.lines.repeats() ? grid_.lines.fold(line) : line;
+    return grid_.lines.repeats() && (line < 0 || line >= grid_.lines.period) ? grid_.lines.fold(line) : line;
   }
   RNM_LANES bool inside(int line, int margin) const {
     return line >= margin && line + count + margin <= grid_.lines.size;
@@ -113,12 +113,36 @@ class GroupSweep {
     const SweepTarget& target = job_.target;
     return texel >= target.first_line && texel < target.last_line ? texel - target.first_line : -1;
   }
-  RNM_LANES bool wanted(int step) const {
-    const int line = texel_line(step);
+  RNM_LANES bool wanted(int line) const {
     const SweepTarget& target = job_.target;
     if (line + count <= target.first_line) return false;
     if (line < target.last_line) return true;
     return grid_.lines.repeats() && line + count > grid_.lines.period + target.first_line;
+  }
+
+  /// Each step is in another page, which no processor foresees.
+  template <int Sign>
+  RNM_LANES void prefetch(int step, int line) const {
+    constexpr int soon = 6;
+    const std::ptrdiff_t at = std::clamp(line, 0, grid_.lines.size - 1);
+    const int height_step = step - Sign * soon;
+    if (height_step >= 0 && height_step < grid_.steps.size) {
+      const float* heights = grid_.heights + static_cast<std::ptrdiff_t>(height_step) * grid_.lines.size + at;
+      __builtin_prefetch(heights);
+      __builtin_prefetch(heights + count);
+    }
+    const SweepTarget& target = job_.target;
+    const int sum_step = step - Sign * soon;
+    if (Sign > 0 || sum_step < target.first_step || sum_step >= target.last_step ||
+        line < target.first_line || line >= target.last_line)
+      return;
+    const float* sums = target.sums.data() +
+                        static_cast<std::size_t>(sum_step - target.first_step) * target.pitch() +
+                        (line - target.first_line);
+    for (int c = 0; c < target.planes; ++c, sums += target.plane()) {
+      __builtin_prefetch(sums, 1);
+      __builtin_prefetch(sums + count, 1);
+    }
   }
 
   RNM_LANES void eyes(Float& eye, int step, int line) const {
@@ -135,21 +159,26 @@ class GroupSweep {
   /// The largest slope to the places about the texels.
   RNM_LANES void look_near(Float& slope, const std::vector<NearTap>& taps, int step, int line,
                            const Float& eye) const {
-    const bool plain = inside(line, job_.near_rows + 1);
+    if (inside(line, job_.near_rows + 1) && step > job_.near_rows &&
+        step + job_.near_rows + 1 < grid_.steps.size) {
+      const float* here = grid_.row(step) + line;
+      for (const NearTap& tap : taps) {
+        Float a, b;
+        L::load(a, here + tap.a);
+        L::load(b, here + tap.b);
+        L::keep_larger(slope, (a + tap.part * (b - a) - eye) * tap.per_height);
+      }
+      return;
+    }
     for (const NearTap& tap : taps) {
       const float* row_a = grid_.row(step + tap.step_a);
       const float* row_b = tap.step_b == tap.step_a ? row_a : grid_.row(step + tap.step_b);
       Float a, b;
-      if (plain) {
-        L::load(a, row_a + line + tap.line_a);
-        L::load(b, row_b + line + tap.line_b);
-      } else {
-        std::array<float, count> values;
-        fill_lanes(values.data(), count, grid_, row_a, line + tap.line_a);
-        L::load(a, values.data());
-        fill_lanes(values.data(), count, grid_, row_b, line + tap.line_b);
-        L::load(b, values.data());
-      }
+      std::array<float, count> values;
+      fill_lanes(values.data(), count, grid_, row_a, line + tap.line_a);
+      L::load(a, values.data());
+      fill_lanes(values.data(), count, grid_, row_b, line + tap.line_b);
+      L::load(b, values.data());
       L::keep_larger(slope, (a + tap.part * (b - a) - eye) * tap.per_height);
     }
   }
@@ -251,12 +280,13 @@ class GroupSweep {
       const int step = step_at<Sign>(place);
       Float height;
       sample(height, step_at<Sign>(place + job_.near_rows + 1));
-      if (step < first || step >= last || !wanted(step)) {
+      const int line = step >= first && step < last ? texel_line(step) : 0;
+      if (step < first || step >= last || !wanted(line)) {
         hull.push(static_cast<float>(place) + ahead, height);
         continue;
       }
-      const int line = texel_line(step);
       Float eye, slope, far;
+      prefetch<Sign>(step, line);
       eyes(eye, step, line);
       L::set(slope, 0);
       look_near(slope, way.taps, step, line, eye);
