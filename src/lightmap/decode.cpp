@@ -136,17 +136,15 @@ std::array<Tap, 4> LightmapDecoder::taps_at(const Vec2& uv) const {
   return lightmap_.coverage.empty() ? taps : covered_taps(taps, lightmap_.coverage);
 }
 
-LightmapDecoder::Maps LightmapDecoder::maps_at(const Vec2& uv) const {
+std::array<Vec3, 3> LightmapDecoder::rnm_at(const Vec2& uv) const {
   const auto taps = taps_at(uv);
-  const auto of = [&](const FloatImage& map) { return map.empty() ? Vec3(0) : colour(map, taps); };
-  return {{of(lightmap_.rnm[0]), of(lightmap_.rnm[1]), of(lightmap_.rnm[2])}, of(lightmap_.flat)};
+  return {colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps), colour(lightmap_.rnm[2], taps)};
 }
 
 Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
   const auto taps = taps_at(uv);
   if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
-  const std::array<Vec3, 3> maps{colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps),
-                                 colour(lightmap_.rnm[2], taps)};
+  const std::array<Vec3, 3> maps = rnm_at(uv);
   const Vec3 turned(normal.x, green == lightmap_.metadata.green ? normal.y : -normal.y, normal.z);
   return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, turned)
                                            : rnm_decode_squared(maps, turned);

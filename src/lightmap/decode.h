@@ -59,12 +59,8 @@ class LightmapDecoder {
   /// E/pi. `normal`: unit, tangent space; turned to the lightmap's green.
   [[nodiscard]] Vec3 at(const Vec2& uv, const Vec3& normal, Green green = Green::y_up) const;
 
-  /// What the maps hold there, for decodes of other things than normals. A map that is missing gives 0.
-  struct Maps {
-    std::array<Vec3, 3> rnm;
-    Vec3 flat;
-  };
-  [[nodiscard]] Maps maps_at(const Vec2& uv) const;
+  /// The three maps there, for decodes of other things than normals.
+  [[nodiscard]] std::array<Vec3, 3> rnm_at(const Vec2& uv) const;
 
   [[nodiscard]] const LightmapMetadata& metadata() const { return lightmap_.metadata; }
   [[nodiscard]] int width() const;

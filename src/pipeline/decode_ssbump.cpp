@@ -1,6 +1,6 @@
 #include "pipeline/decode_ssbump.h"
 
-#include "base/error.h"
+#include "base/math.h"
 #include "image/sample.h"
 #include "ssbump/weights.h"
 
@@ -9,15 +9,18 @@
 #include <utility>
 
 namespace rnmbake {
+namespace {
+
+/// Of each colour channel.
+Vec3 least(const std::array<Vec3, 3>& maps) {
+  const auto of = [&](int c) { return std::min({maps[0][c], maps[1][c], maps[2][c]}); };
+  return {of(0), of(1), of(2)};
+}
+
+}  // namespace
 
 FloatImage decode_ssbump(Lightmap lightmap, const SsbumpPicture& ssbump, DecodeVariant variant) {
   const bool has_up = ssbump.metadata.alpha == SsbumpAlpha::up;
-  if (has_up && lightmap.flat.empty()) {
-    fail(
-        ExitCode::unsupported,
-        "the fourth channel of the self-shadowed bump map goes with the flat layer, which this lightmap does "
-        "not have; bake flat too");
-  }
   const LightmapDecoder decoder(std::move(lightmap), variant);
   // Weights are right-handed; a lightmap with y down has its axes mirrored.
   const bool mirrored = decoder.metadata().green == Green::y_down;
@@ -27,9 +30,11 @@ FloatImage decode_ssbump(Lightmap lightmap, const SsbumpPicture& ssbump, DecodeV
   for (int y = 0; y < result.height(); ++y) {
     for (int x = 0; x < result.width(); ++x) {
       const auto w = weights.texel(x, y);
-      const auto [maps, flat] = decoder.maps_at(texel_uv(result, x, y));
-      const Vec3 three = maps[0] * w[0] + maps[1] * w[upper] + maps[2] * w[lower];
-      const Vec3 lit = has_up ? (three + flat * w[SsbumpWeights::up]) / 4 : three / 3;
+      const auto maps = decoder.rnm_at(texel_uv(result, x, y));
+      const Vec3 above = has_up ? least(maps) : Vec3(0);
+      const Vec3 three =
+          (maps[0] - above) * w[0] + (maps[1] - above) * w[upper] + (maps[2] - above) * w[lower];
+      const Vec3 lit = three / 3 + above * w[SsbumpWeights::up];
       std::ranges::copy(std::array{lit.x, lit.y, lit.z}, result.texel(x, y).begin());
     }
   }
