@@ -66,6 +66,7 @@ class NmsCommand : public testing::Test {
   int nms(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"rnmbake", "nms"});
     std::vector<const char*> words;
+    words.reserve(arguments.size());
     for (const std::string& argument : arguments) words.push_back(argument.c_str());
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();

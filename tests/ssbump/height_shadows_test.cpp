@@ -34,8 +34,10 @@ TEST(HeightShadows, HorizonIsTheHighestOfAllPointsOnTheWay) {
     for (const int x : {0, 7, 15}) {
       const double start = field.heights.texel(x, 5)[0];
       double dense = 0.2;
-      for (double t = 1.0 / 512; t < 4 / dense; t += 1.0 / 512)
+      for (int i = 1; i / 512.0 < 4 / dense; ++i) {
+        const double t = i / 512.0;
         dense = std::max(dense, (surface(field, x + azimuth.x * t, 5 - azimuth.y * t) - start) / t);
+      }
       const double exact = rays.horizon_slope(x, 5, azimuth, 0.2);
       EXPECT_GE(exact, dense - 1e-5) << degrees << ", " << x;
       EXPECT_LE(exact, dense + 0.05) << degrees << ", " << x;  // a peak between samples, at most 1/512 away
@@ -80,7 +82,10 @@ TEST(HeightShadows, TheTopOfASaddleLiesWithinThePatch) {
   const float half = std::sqrt(0.5F);
   // From (0, 0) down the picture: f = 8 u (1 - u) at distance sqrt 2 (1 + u).
   double best = 0;
-  for (double u = 0; u <= 1; u += 1e-5) best = std::max(best, 8 * u * (1 - u) / (std::sqrt(2) * (1 + u)));
+  for (int i = 0; i <= 100000; ++i) {
+    const double u = i * 1e-5;
+    best = std::max(best, 8 * u * (1 - u) / (std::sqrt(2) * (1 + u)));
+  }
   EXPECT_NEAR(HeightRays(field).horizon_slope(0, 0, {half, -half}, kFloor), best, 1e-6);
 }
 
