@@ -10,8 +10,8 @@ from scene_ops.describe_nodes import active_output
 from scene_ops.see_through import has_transparency
 
 # A receiver's height over its face, as in src/scene/surface.cpp, and how many of them count as right above it: light
-# that comes from less than 0.6 degrees under the face gets through.
-LEAST, SHARE, REACH = 1e-5, 1e-6, 100
+# that comes from less than 0.1 degrees under the face gets through.
+LEAST, SHARE, REACH = 1e-5, 1e-6, 500
 
 
 def block_light_from_below():
