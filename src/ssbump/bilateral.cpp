@@ -44,19 +44,19 @@ int within(int at, int count, Beyond beyond) {
   return at < count ? at : period - 1 - at;
 }
 
-/// Some rows with what lies about them.
+/// Some rows with what lies about them, in units of the edge.
 class Padded {
  public:
-  Padded(const HeightField& field, int begin, int end, int radius)
+  Padded(const HeightField& field, int begin, int end, int radius, float edge)
       : stride_(static_cast<std::size_t>(field.width() + 2 * radius + kBlock)),
         rows_(stride_ * static_cast<std::size_t>(end - begin + 2 * radius)) {
     for (int y = begin - radius; y < end + radius; ++y) {
       const float* from = field.heights.texel(0, within(y, field.height(), field.y)).data();
       float* to = row(y - begin + radius);
-      for (int x = -radius; x < 0; ++x) to[x + radius] = from[within(x, field.width(), field.x)];
-      std::copy_n(from, field.width(), to + radius);
-      for (int x = field.width(); x < field.width() + radius; ++x)
-        to[x + radius] = from[within(x, field.width(), field.x)];
+      const auto copy = [&](int x, int column) { to[x + radius] = from[column] / edge; };
+      for (int x = -radius; x < 0; ++x) copy(x, within(x, field.width(), field.x));
+      for (int x = 0; x < field.width(); ++x) copy(x, x);
+      for (int x = field.width(); x < field.width() + radius; ++x) copy(x, within(x, field.width(), field.x));
     }
   }
   [[nodiscard]] float* row(int y) { return &rows_[stride_ * static_cast<std::size_t>(y)]; }
@@ -67,13 +67,12 @@ class Padded {
   std::vector<float> rows_;
 };
 
-/// kBlock texels from `centre` on; `corner` is the texel at the disc's upper left of the first of them.
+/// How far kBlock texels from `centre` on are moved, in units of the edge; `corner` is the texel at the
+/// disc's upper left of the first of them.
 [[gnu::target_clones("avx2", "default")]] void filter_block(const float* corner, const float* centre,
                                                             const std::vector<std::ptrdiff_t>& offsets,
-                                                            const std::vector<Tap>& taps, float edge,
-                                                            float* out) {
+                                                            const std::vector<Tap>& taps, float* out) {
   constexpr int kVectors = kBlock / kLanes;
-  const float steepness = 1 / (edge * edge);
   Lanes middle[kVectors], weight[kVectors], moved[kVectors];
   std::memcpy(middle, centre, sizeof(middle));
   for (int v = 0; v < kVectors; ++v) weight[v] = moved[v] = Lanes{};
@@ -83,15 +82,15 @@ class Padded {
       Lanes height;
       std::memcpy(&height, from + v * kLanes, sizeof(height));
       const Lanes difference = height - middle[v];
-      Lanes likeness = 1.0F - difference * difference * steepness;
+      Lanes likeness = 1.0F - difference * difference;
       likeness = likeness > 0.0F ? likeness : Lanes{};
       const Lanes share = likeness * likeness * taps[i].weight;
       weight[v] += share;
       moved[v] += share * difference;
     }
   }
-  for (int v = 0; v < kVectors; ++v) middle[v] += moved[v] / weight[v];
-  std::memcpy(out, middle, sizeof(middle));
+  for (int v = 0; v < kVectors; ++v) moved[v] /= weight[v];
+  std::memcpy(out, moved, sizeof(moved));
 }
 
 class Filter {
@@ -100,7 +99,7 @@ class Filter {
       : field_(field), radius_(options.radius), edge_(options.edge), taps_(disc(options.radius)) {}
 
   void rows(int begin, int end, FloatImage& out) const {
-    Padded padded(field_, begin, end, radius_);
+    Padded padded(field_, begin, end, radius_, edge_);
     std::vector<std::ptrdiff_t> offsets;
     for (const Tap& tap : taps_)
       offsets.push_back(static_cast<std::ptrdiff_t>(padded.stride()) * tap.row + tap.column);
@@ -108,10 +107,12 @@ class Filter {
     for (int y = begin; y < end; ++y) {
       const float* corner = padded.row(y - begin);
       const float* centre = padded.row(y - begin + radius_) + radius_;
+      const float* from = field_.heights.texel(0, y).data();
       float* to = out.texel(0, y).data();
       for (int x = 0; x < field_.width(); x += kBlock) {
-        filter_block(corner + x, centre + x, offsets, taps_, edge_, block.data());
-        std::copy_n(block.data(), std::min(kBlock, field_.width() - x), to + x);
+        filter_block(corner + x, centre + x, offsets, taps_, block.data());
+        const int count = std::min(kBlock, field_.width() - x);
+        for (int i = 0; i < count; ++i) to[x + i] = from[x + i] + edge_ * block[static_cast<std::size_t>(i)];
       }
     }
   }

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace rnmbake {
@@ -77,15 +78,48 @@ Colour bc7_between(const Ends& ends, float share) {
   return colour;
 }
 
-const Palette& palette_of(TextureFormat format) {
-  static const Palette bc1{as_565, {0, 1.0F / 3, 2.0F / 3, 1}, bc1_between};
-  static const Palette bc7 = [] {
-    Palette palette{as_7_and_shared, {}, bc7_between};
-    for (const int weight : {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64})
-      palette.steps.push_back(static_cast<float>(weight) / 64);
-    return palette;
-  }();
-  return format == TextureFormat::bc1 ? bc1 : bc7;
+/// End points of so many bits, each channel for itself.
+template <int bits>
+Colour as_bits(const Colour& colour) {
+  Colour near{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float whole = rounded(colour[c], (1 << bits) - 1);
+    near[c] = bits == 8 ? whole : widened(whole, bits);
+  }
+  return near;
+}
+
+const std::vector<float>& bc7_steps(int bits) {
+  const auto of = [](std::initializer_list<int> weights) {
+    std::vector<float> steps;
+    for (const int weight : weights) steps.push_back(static_cast<float>(weight) / 64);
+    return steps;
+  };
+  static const auto two = of({0, 21, 43, 64}), three = of({0, 9, 18, 27, 37, 46, 55, 64});
+  static const auto four = of({0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64});
+  return bits == 2 ? two : bits == 3 ? three : four;
+}
+
+const Palette& bc1_palette() {
+  static const Palette palette{as_565, {0, 1.0F / 3, 2.0F / 3, 1}, bc1_between};
+  return palette;
+}
+
+const Palette& bc7_palette() {
+  static const Palette palette{as_7_and_shared, bc7_steps(4), bc7_between};
+  return palette;
+}
+
+/// BC7's modes 5 and 4: one channel, which may be any, has end points and steps of its own.
+struct Split {
+  Palette two, one;
+};
+const std::vector<Split>& bc7_splits() {
+  static const std::vector<Split> splits{
+      {{as_bits<7>, bc7_steps(2), bc7_between}, {as_bits<8>, bc7_steps(2), bc7_between}},
+      {{as_bits<5>, bc7_steps(2), bc7_between}, {as_bits<6>, bc7_steps(3), bc7_between}},
+      {{as_bits<5>, bc7_steps(3), bc7_between}, {as_bits<6>, bc7_steps(2), bc7_between}}};
+  return splits;
 }
 
 struct Encoded {
@@ -165,7 +199,7 @@ Ends refined(const Block& block, const Encoded& encoded, const Palette& palette,
   return {(ac * bb - bc * ab) * (1 / determinant), (bc * aa - ac * ab) * (1 / determinant)};
 }
 
-Block compressed(const Block& block, const Palette& palette) {
+Encoded compressed(const Block& block, const Palette& palette) {
   Ends ends = along_axis(block);
   Encoded best = encoded(block, palette, ends);
   for (int i = 0; i < 3; ++i) {
@@ -174,10 +208,33 @@ Block compressed(const Block& block, const Palette& palette) {
     if (next.error >= best.error) break;
     best = next;
   }
+  return best;
+}
+
+/// `alone` has its own line through the block, the other two share one.
+Encoded split(const Block& block, const Split& how, std::size_t alone) {
+  Block two = block, one{};
+  for (std::size_t i = 0; i < kTexels; ++i) std::swap(two[i][alone], one[i][alone]);
+  Encoded result = compressed(two, how.two);
+  const Encoded other = compressed(one, how.one);
+  for (std::size_t i = 0; i < kTexels; ++i) result.colours[i][alone] = other.colours[i][alone];
+  result.error += other.error;
+  return result;
+}
+
+Block best_of(TextureFormat format, const Block& block) {
+  if (format == TextureFormat::bc1) return compressed(block, bc1_palette()).colours;
+  Encoded best = compressed(block, bc7_palette());
+  for (const Split& how : bc7_splits()) {
+    for (std::size_t alone = 0; alone < 3; ++alone) {
+      const Encoded next = split(block, how, alone);
+      if (next.error < best.error) best = next;
+    }
+  }
   return best.colours;
 }
 
-void compress_block(const FloatImage& in, FloatImage& out, int left, int top, const Palette& palette) {
+void compress_block(const FloatImage& in, FloatImage& out, int left, int top, TextureFormat format) {
   Block block{};
   const auto at = [&](std::size_t i) {
     return std::pair(std::min(left + static_cast<int>(i) % kSide, in.width() - 1),
@@ -187,7 +244,7 @@ void compress_block(const FloatImage& in, FloatImage& out, int left, int top, co
     const auto [x, y] = at(i);
     for (std::size_t c = 0; c < 3; ++c) block[i][c] = rounded(255 * in.texel(x, y)[c], 255);
   }
-  const Block result = compressed(block, palette);
+  const Block result = best_of(format, block);
   for (std::size_t i = 0; i < kTexels; ++i) {
     const auto [x, y] = at(i);
     for (std::size_t c = 0; c < 3; ++c) out.texel(x, y)[c] = result[i][c] / 255;
@@ -226,7 +283,7 @@ FloatImage through(TextureFormat format, const FloatImage& image) {
   if (format == TextureFormat::rgb8 || format == TextureFormat::rgb565) return rounded_to(image, format);
   FloatImage out(image.width(), image.height(), 3);
   for (int y = 0; y < image.height(); y += kSide)
-    for (int x = 0; x < image.width(); x += kSide) compress_block(image, out, x, y, palette_of(format));
+    for (int x = 0; x < image.width(); x += kSide) compress_block(image, out, x, y, format);
   return out;
 }
 

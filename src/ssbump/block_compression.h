@@ -8,7 +8,8 @@
 namespace rnmbake {
 
 /// rgb8: 8 bits each; rgb565: 5, 6 and 5; bc1 (DXT1): two 565 colours and two between for 4 x 4 texels; bc7:
-/// mode 6 of it, two RGBA colours of 7 bits and a shared one, 16 steps between.
+/// the best of its modes 6 (one line through the colours, 16 steps), 5 and 4 (one channel, whichever, on its
+/// own).
 enum class TextureFormat : std::uint8_t { rgb8, rgb565, bc1, bc7 };
 
 [[nodiscard]] const char* name_of(TextureFormat format);
