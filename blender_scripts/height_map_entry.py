@@ -3,7 +3,7 @@ triangles, where its copies lie, and receivers (a tiny horizontal quad over each
 
 Request: "surface" {"file", "vertices", "triangles"}, "copies" [[sign x, sign y, shift x, shift y]], "receivers"
 {"file", "corners"}, "width" and "height" of the picture, "cycles" (see scene_ops/cycles.py), "lamps"
-[{"direction", "color"}] with "lamp_center", "lamp_distance" and "lamp_radius", and "bakes" [{"light": "sky" or "lamps",
+[{"direction", "color"}] with "lamp_distance" and "lamp_radius", and "bakes" [{"light": "sky" or "lamps",
 "open": without the surface, "pixels": file}].
 """
 import os
@@ -123,7 +123,7 @@ def black_material():
 
 
 def place_lamps(scene, request):
-    """Round area lights that face the middle of the map."""
+    """Round area lights that face the origin, where the middle of the map is."""
     lamps = []
     distance, radius = request["lamp_distance"], request["lamp_radius"]
     for lamp in request["lamps"]:
@@ -134,7 +134,7 @@ def place_lamps(scene, request):
         data.energy = 10 * distance * distance  # a few units of irradiance; the open bake divides it out
         ob = bpy.data.objects.new("rnmbake lamp", data)
         direction = Vector(lamp["direction"])
-        ob.location = Vector(request["lamp_center"]) + direction * distance
+        ob.location = direction * distance
         ob.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()  # a lamp shines along its -Z
         scene.collection.objects.link(ob)
         lamps.append(ob)

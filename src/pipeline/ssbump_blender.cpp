@@ -27,7 +27,7 @@ constexpr int most_texels = 1024 * 1024;
 constexpr std::size_t finely_cut = 256 * 256;
 constexpr double lamp_distance = 50;  // sizes of the map
 constexpr float least_quad = 1e-5F;   // texels, half the side of a receiver
-constexpr float steps_across = 8;     // of floating point, half the side of a receiver at least
+constexpr float steps_across = 2;     // of floating point, half the side of a receiver at least
 /// Raw little-endian numbers in a file of the launch.
 class RawFile {
  public:
@@ -59,11 +59,16 @@ struct Tiles {
   [[nodiscard]] int top(std::size_t tile) const { return height * (static_cast<int>(tile) / 2); }
 };
 
+/// Blender's scene has the middle of the map at its origin, where floats are finest.
+Vec3 middle_of(const HeightField& field) {
+  return {0.5F * static_cast<float>(field.width() - 1), -0.5F * static_cast<float>(field.height() - 1), 0};
+}
+
 /// A tiny quad over each texel's centre: Cycles averages over a texel, and this is a point.
 class PointReceivers {
  public:
   PointReceivers(const HeightField& field, const Tiles& tiles) : field_(field), tiles_(tiles) {
-    const auto extent = static_cast<float>(std::max(field.width(), field.height()));
+    const auto extent = static_cast<float>(std::max(field.width(), field.height())) / 2;
     half_ = std::max(least_quad, steps_across * std::numeric_limits<float>::epsilon() * extent);
     for (std::size_t tile = 0; tile < tiles.directions.size(); ++tile) {
       for (int y = 0; y < field.height(); ++y) {
@@ -98,8 +103,9 @@ class PointReceivers {
   }
 
   void add(std::size_t tile, int x, int y) {
-    const Vec3 middle(static_cast<float>(x), static_cast<float>(-y),
-                      field_.heights.texel(x, y)[0] + lift(x, y));
+    const Vec3 place(static_cast<float>(x), static_cast<float>(-y),
+                     field_.heights.texel(x, y)[0] + lift(x, y));
+    const Vec3 middle = place - middle_of(field_);
     const auto across = static_cast<float>(tiles_.width * tiles_.across());
     const auto down = static_cast<float>(tiles_.height * tiles_.down());
     for (const auto& [right, up] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
@@ -125,7 +131,8 @@ PatchCuts cuts_of(const HeightField& field) {
 }
 
 json write_surface(const HeightField& field, const fs::path& folder) {
-  const HeightMesh mesh = height_mesh(field, cuts_of(field));
+  HeightMesh mesh = height_mesh(field, cuts_of(field));
+  for (Vec3& position : mesh.positions) position -= middle_of(field);
   RawFile out(folder / "surface.bin");
   out.write(mesh.positions);
   out.write(mesh.triangles);
@@ -193,8 +200,11 @@ class HeightMapBake {
 
   [[nodiscard]] json request() const {
     json copies = json::array();
-    for (const HeightCopy& copy : height_copies(field_, useful_reach(field_)))
-      copies.push_back({copy.sign_x, copy.sign_y, copy.shift_x, copy.shift_y});
+    const Vec3 middle = middle_of(field_);
+    for (const HeightCopy& copy : height_copies(field_, useful_reach(field_))) {
+      copies.push_back({copy.sign_x, copy.sign_y, copy.shift_x + float(copy.sign_x - 1) * middle.x,
+                        copy.shift_y + float(copy.sign_y - 1) * middle.y});
+    }
     const std::size_t corners = PointReceivers(field_, tiles_).write(folder_ / "receivers.f32");
     const double distance = lamp_distance * std::max(field_.width(), field_.height());
     json bakes = json::array({bake("sky", false), bake("sky", true)});
@@ -210,7 +220,6 @@ class HeightMapBake {
             {"height", down()},
             {"cycles", to_json(cycles)},
             {"lamps", by_sky() ? json::array() : lamps()},
-            {"lamp_center", {0.5 * (field_.width() - 1), -0.5 * (field_.height() - 1), 0}},
             {"lamp_distance", distance},
             {"lamp_radius", distance * std::tan(area_light_half_angle * pi / 180)},
             {"bakes", bakes}};

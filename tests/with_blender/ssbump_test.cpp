@@ -169,8 +169,7 @@ SsbumpWeights bake(const HeightField& field, SsbumpBlenderOptions::Lights lights
   return bake_height_map(workspace, field, options);
 }
 
-TEST(SsbumpBlender, TheSkyAgreesWithTheHorizon) {
-  const HeightField field = waves(12);
+void expect_the_horizon(const HeightField& field) {
   const SsbumpWeights cycles = bake(field, SsbumpBlenderOptions::Lights::sky);
   const SsbumpWeights horizon = generate(field, {});
   for (std::size_t channel = 0; channel < SsbumpWeights::channels; ++channel) {
@@ -187,6 +186,14 @@ TEST(SsbumpBlender, TheSkyAgreesWithTheHorizon) {
     EXPECT_LT(squares / texels, 1.5) << channel;
     EXPECT_LT(std::abs(sum / texels), 0.003) << channel;
   }
+}
+
+TEST(SsbumpBlender, TheSkyAgreesWithTheHorizon) {
+  HeightField field = waves(12);
+  expect_the_horizon(field);
+  field.x = Beyond::mirror;
+  field.y = Beyond::none;
+  expect_the_horizon(field);
 }
 
 TEST(SsbumpBlender, NothingShadesAFlatMap) {
