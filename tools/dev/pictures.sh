@@ -1,4 +1,4 @@
-# pictures.sh - the pictures of README.md that come from runs of the program. Sourced by ./dev.
+# pictures.sh - the pictures of README.md and docs/ssbump.md, which come from runs of the program. Sourced by ./dev.
 
 views=out/pictures/views
 
@@ -8,7 +8,7 @@ mosaic() {
     -d uint8 --compression jpeg:92 -o docs/images/views.jpg
 }
 
-# docs/images/report.png, whose finding goes to stdout, and views.jpg with the errors of its parts.
+# docs/images/report.png, whose finding goes to stdout, views.jpg with the errors of its parts, and ssbump-*.png.
 pictures() {
   require "${test_packages[@]}"
   build release --target rnmbake
@@ -21,5 +21,6 @@ pictures() {
     --resolution 96 --samples 48
   "$rnmbake" -q render scenes/panels.toml --lightmaps out/pictures/lightmaps --compare --resolution 400x250 \
     --samples 64 -o "$views"
+  python3 tools/dev/ssbump_picture.py "$rnmbake" out/pictures/ssbump docs/images
   mosaic cycles.exr truth.exr single-lightmap.exr rnm-squared.exr
 }
