@@ -59,6 +59,7 @@ OIIO::ImageSpec spec_of(const std::string& ending, const PictureForm& form) {
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("DateTime", "");  // or EXR stores the time of day, and two equal runs would differ
   if (ending == ".exr" || ending.starts_with(".tif")) spec.attribute("compression", "zip");
+  spec.attribute("png:compressionLevel", 3);  // data is noisy: more takes longer and saves little
   if (spec.image_bytes(true) > 3'000'000'000ULL) spec.attribute("tiff:bigtiff", 1);
   return spec;
 }
