@@ -203,7 +203,7 @@ class GroupSweep {
     for (int place = period_ + std::max(period_, grid_.lines.size) - 1; place >= period_; --place) {
       Float height;
       sample(height, step_at<Sign>(place));
-      if (farthest == 0 || L::any(height > top)) farthest = std::max(farthest, place);
+      if (farthest == 0 || L::any_above(height, top)) farthest = std::max(farthest, place);
       L::keep_larger(top, height);
     }
     return farthest;
@@ -226,19 +226,20 @@ class GroupSweep {
       Float record = before[static_cast<std::size_t>(periods)];
       L::keep_larger(record, top);
       before[static_cast<std::size_t>(periods + 1)] = record;
-      const Float rest = job_.lines.highest_of_all - record;
-      if (!L::any(rest > least_slope * static_cast<float>(periods * period_))) break;
+      Float enough;
+      L::set(enough, job_.lines.highest_of_all - least_slope * static_cast<float>(periods * period_));
+      if (!L::any_above(enough, record)) break;
     }
     for (int ahead = periods; ahead > 1; --ahead) {
       Float top;
       int at = 0;
       const Float& record = before[static_cast<std::size_t>(ahead)];
-      if (!tops<Sign>(top, at, ahead) || !L::any(top > record)) continue;
+      if (!tops<Sign>(top, at, ahead) || !L::any_above(top, record)) continue;
       for (int i = period_ - 1; i >= 0; --i) {
         const int place = ahead * period_ + i;
         Float height;
         sample(height, step_at<Sign>(place));
-        if (L::any(height > record)) hull.push(static_cast<float>(place), height);
+        if (L::any_above(height, record)) hull.push(static_cast<float>(place), height);
       }
     }
     return period_ + farthest;
@@ -290,7 +291,12 @@ class GroupSweep {
       eyes(eye, step, line);
       L::set(slope, 0);
       look_near(slope, way.taps, step, line, eye);
-      hull.push_and_look(far, static_cast<float>(place), eye, ahead, height);
+      // The line may pass up to half a texel beside the texel's centre. Where it does so higher up, its
+      // points are seen from there, or a plane would stand in its own light.
+      Float beside;
+      sample(beside, step);
+      L::keep_larger(beside, eye);
+      hull.push_and_look(far, static_cast<float>(place), beside, ahead, height);
       L::keep_larger(slope, far);
       slope = slope * azimuth_.per_step;
       float* kept = &scratch.slopes[static_cast<std::size_t>(step) * count];

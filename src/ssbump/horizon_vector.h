@@ -77,6 +77,22 @@ struct Lanes {
       return (words[0] | words[1]) != 0;
     }
   }
+  /// Is any lane not above the limit? Comparisons are kept within selections: compilers take them apart
+  /// lane by lane where they stand alone.
+  RNM_LANES static bool any_not_above(const Float& value, float limit) {
+    Int one, zero{};
+    set(one, -1);
+    Float bound;
+    set(bound, limit);
+    const Int mask = value > bound ? zero : one;
+    return any(mask);
+  }
+  RNM_LANES static bool any_above(const Float& value, const Float& other) {
+    Int one, zero{};
+    set(one, -1);
+    const Int mask = value > other ? one : zero;
+    return any(mask);
+  }
   RNM_LANES static std::int32_t smallest(const Int& of) {
     if constexpr (Width > 4) {
       typename Lanes<Width / 2>::Int low, high;

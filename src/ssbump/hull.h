@@ -90,27 +90,32 @@ class Hull {
       Row row;
       read(row, top_ - back);
       const Float here = row.height + row.edge * (place - row.at), there = here + row.edge * ahead;
-      if (!L::any((here <= eye) | (there <= height))) return top_ - back;
+      Float least = here - eye;
+      least = there - height < least ? there - height : least;
+      if (!L::any_not_above(least, 0)) return top_ - back;
     }
     return 0;
   }
 
   /// The new vertices stand on `under_row`; what was above is gone.
   RNM_LANES void put(const Int& under_row, float place, const Float& height, const Float& under_at,
-                     const Float& under) {
+                     const Float& under_height) {
     const int lowest = L::smallest(under_row) + 1, highest = L::largest(under_row) + 1;
     if (static_cast<std::size_t>((highest + 1) * row_floats) > storage_.size()) {
       grow();
       rows_ = storage_.data();
     }
-    const Float edge = (under - height) / (under_at - place);
+    const Float edge = (under_height - height) / (under_at - place);
     for (int k = lowest; k <= highest; ++k) {
       Row row;
       read(row, k);
-      const Int here = under_row == k - 1, gone = under_row < k - 1;
-      row.at = here ? place - Float{} : row.at;
-      row.edge = here ? edge : gone ? Float{} : row.edge;
-      row.height = here ? height : gone ? no_height - Float{} : row.height;
+      Int under;
+      L::set(under, k - 1);
+      row.at = under_row == under ? place - Float{} : row.at;
+      row.edge = under_row < under ? Float{} : row.edge;
+      row.edge = under_row == under ? edge : row.edge;
+      row.height = under_row < under ? no_height - Float{} : row.height;
+      row.height = under_row == under ? height : row.height;
       write(k, row);
     }
     top_ = highest;

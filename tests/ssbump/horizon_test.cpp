@@ -1,0 +1,152 @@
+#include "ssbump/generate.h"
+#include "ssbump/height_fields.h"
+#include "ssbump/horizon_sweep.h"
+
+#include <gtest/gtest.h>
+
+using namespace rnmbake;
+
+namespace {
+
+struct Errors {
+  double rms = 0, largest = 0;
+};
+
+Errors errors(const HeightField& field, const GenerateOptions& options, int every) {
+  const SsbumpWeights weights = generate(field, options);
+  const HeightRays surface(field);
+  Errors result;
+  int count = 0;
+  for (int i = 0; i < field.width() * field.height(); i += every) {
+    const int x = i % field.width(), y = i / field.width();
+    const Channels exact = exact_weights(surface, x, y, options.power);
+    for (std::size_t c = 0; c < exact.size(); ++c, ++count) {
+      const double error = std::abs(weights.image.texel(x, y)[c] - exact[c]);
+      result.rms += error * error;
+      result.largest = std::max(result.largest, error);
+    }
+  }
+  result.rms = std::sqrt(result.rms / count);
+  return result;
+}
+
+double largest_difference(const FloatImage& a, const FloatImage& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.data().size(); ++i)
+    largest = std::max(largest, std::abs(double(a.data()[i]) - b.data()[i]));
+  return largest;
+}
+
+TEST(Horizon, NothingStandsOutOfAFlatMap) {
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    for (const auto& [width, height] : {std::pair(1, 1), {1, 7}, {9, 1}, {17, 33}}) {
+      const SsbumpWeights weights =
+          generate(field_of(width, height, beyond, [](int, int) { return 3.5; }), {});
+      for (const float weight : weights.image.data()) ASSERT_NEAR(weight, 1, 2e-6);
+    }
+  }
+}
+
+TEST(Horizon, IsThatOfTheBilinearSurface) {
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    const Errors found = errors(rough_field(128, 160, beyond, 10), {}, 397);
+    EXPECT_LE(found.rms, 0.001);
+    EXPECT_LE(found.largest, 0.01);
+  }
+}
+
+TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
+  const HeightField field = rough_field(128, 128, Beyond::wrap, 30);
+  GenerateOptions options;
+  const double rms = errors(field, options, 397).rms;
+  options.azimuths = 256;
+  options.near_rows = 32;
+  EXPECT_LT(errors(field, options, 397).rms, rms / 1.5);
+}
+
+TEST(Horizon, OtherPowersComeOutOfTables) {
+  GenerateOptions options;
+  options.power = 4;
+  const Errors found = errors(rough_field(128, 128, Beyond::wrap, 10), options, 397);
+  EXPECT_LE(found.rms, 0.002);
+  EXPECT_LE(found.largest, 0.02);
+}
+
+TEST(Horizon, AtTheBottomOfAGrooveIsAClosedForm) {
+  // tan(elevation) = s |cos azimuth| on both sides, and the mean of cos^2(elevation) is 1 / sqrt(1 + s^2)
+  for (const double slope : {0.25, 1.0}) {
+    const HeightField field =
+        field_of(256, 256, Beyond::wrap, [&](int x, int) { return slope * std::abs(x - 128); });
+    const SsbumpWeights weights = generate(field, {});
+    EXPECT_NEAR(weights.image.texel(128, 100)[SsbumpWeights::ambient], 1 / std::sqrt(1 + slope * slope),
+                1e-4);
+  }
+}
+
+TEST(Horizon, ATileHasNoSeam) {
+  const HeightField field = rough_field(128, 256, Beyond::wrap, 20);
+  const HeightField moved = field_of(128, 256, Beyond::wrap, [&](int x, int y) {
+    return field.heights.texel((x + 64) % 128, (y + 128) % 256)[0];
+  });
+  const FloatImage here = generate(field, {}).image, there = generate(moved, {}).image;
+  double largest = 0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 128; ++x)
+      for (std::size_t c = 0; c < 5; ++c)
+        largest = std::max(
+            largest, std::abs(double(here.texel((x + 64) % 128, (y + 128) % 256)[c]) - there.texel(x, y)[c]));
+  EXPECT_LE(largest, 1e-5);
+}
+
+TEST(Horizon, BandsAreTheWhole) {
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    const HeightField field = rough_field(70, 90, beyond, 20);
+    GenerateOptions options;
+    const FloatImage whole = generate(field, options).image;
+    options.memory = 0;
+    FloatImage parts(70, 90, SsbumpWeights::channels);
+    int bands = 0, next = 0;
+    generate_rows(field, options, [&](int first, const SsbumpWeights& rows) {
+      EXPECT_EQ(first, next);
+      next += rows.image.height();
+      ++bands;
+      std::ranges::copy(rows.image.data(), &parts.texel(0, first)[0]);
+    });
+    EXPECT_GT(bands, 3);
+    EXPECT_EQ(next, 90);
+    EXPECT_LE(largest_difference(whole, parts), 1e-5);
+  }
+}
+
+TEST(Horizon, IsTheSameForAnyThreads) {
+  const HeightField field = rough_field(100, 60, Beyond::wrap, 20);
+  GenerateOptions options;
+  options.threads = 1;
+  const FloatImage one = generate(field, options).image;
+  options.threads = 3;
+  EXPECT_EQ(one.data(), generate(field, options).image.data());
+}
+
+TEST(Horizon, IsTheSameWithAnyInstructions) {
+  const HeightField field = rough_field(100, 60, Beyond::wrap, 20);
+  const FloatImage best = generate(field, {}).image;
+  for (const SweepIsa isa : {SweepIsa::avx2, SweepIsa::baseline}) {
+    limit_isa(isa);
+    EXPECT_LE(largest_difference(best, generate(field, {}).image), 1e-4);
+  }
+  limit_isa(SweepIsa::avx512);
+}
+
+TEST(Horizon, StaysFiniteOnWildHeights) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> height(-1e4, 1e4);
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    for (const auto& [width, height_] : {std::pair(1, 1), {1, 40}, {37, 1}, {3, 5}, {65, 31}}) {
+      const auto weights =
+          generate(field_of(width, height_, beyond, [&](int, int) { return height(random); }), {});
+      for (const float weight : weights.image.data()) ASSERT_TRUE(weight >= 0 && weight <= 1);
+    }
+  }
+}
+
+}  // namespace
