@@ -159,7 +159,8 @@ class ReferenceRun {
 
   Delivery finish(std::size_t i, Gathered&& gathered) const {
     const DeliveryNote& note = notes_[i];
-    if (gathered.paths == 0) {
+    // Paths do not tell: where the recipe bakes black none are traced.
+    if (std::ranges::none_of(gathered.coverage.data(), [](float share) { return share > 0; })) {
       const std::string reason = fmt::format(
           "no texel's centre lies in a face of '{}': are its faces smaller than a texel? Raise --resolution "
           "or --texels-per-unit",

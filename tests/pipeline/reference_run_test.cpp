@@ -102,6 +102,19 @@ TEST(ReferenceRun, TheHeaderAndTheManifestSayWhatItIs) {
   EXPECT_GT(floor.at("standard_error").get<double>(), 0);
 }
 
+TEST(ReferenceRun, WhatTheRecipeBakesBlackIsDeliveredBlack) {
+  ExportedScene scene = floor_under_sky();
+  scene.exchange.looks[0].albedo = Vec3(0);
+  Tracing tracing(std::move(scene));
+  tracing.plan.flat_normal_map = true;
+  tracing.plan.faults.no_diffuse = true;
+  const ReferenceOutcome outcome = tracing.run();
+  EXPECT_EQ(count_failed(outcome.deliveries), 0U);
+  const LayeredImage image = tracing.read("floor.exr");
+  EXPECT_EQ(image.find("coverage")->pixels.texel(3, 3)[0], 1);
+  for (const float value : image.find("rnm0")->pixels.data()) EXPECT_EQ(value, 0);
+}
+
 // A sun from +y: with Y up rnm1 (y > 0) sees it and rnm2 hardly; with Y down it is the other way round.
 TEST(ReferenceRun, GreenDownMirrorsTheBasesAndTheHarmonics) {
   ExportedScene scene = floor_under_sky(0);
