@@ -12,11 +12,12 @@ import measure
 import memory
 import overhead
 import preparation
+import ssbump
 import startup
 import tracing
 
 BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "memory": memory, "preparation": preparation,
-              "startup": startup, "tracing": tracing}
+              "startup": startup, "tracing": tracing, "ssbump": ssbump}
 RESULTS = Path(__file__).resolve().parent / "results"
 DOCUMENT = measure.ROOT / "docs/performance.md"
 INTRODUCTION = """# Performance
@@ -37,6 +38,7 @@ def arguments():
     parser.add_argument("--objects", type=int, nargs="+", help="dispatch: sizes of the hall (10 40 160)")
     parser.add_argument("--samples", type=int, nargs="+", help="overhead: samples (256)")
     parser.add_argument("--scenes", nargs="+", help="tracing: only these")
+    parser.add_argument("--ssbump", metavar="FLAGS", help="ssbump: flags for bench_ssbump, such as '--side 256'")
     parser.add_argument("--patience", type=float, default=0, metavar="S",
                         help="wait so long for a quiet machine before each benchmark")
     options = parser.parse_args()

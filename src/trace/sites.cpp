@@ -95,15 +95,18 @@ Vec3 Sites::retried(const TexelSite& texel, Vec2 u) const {
 Place Sites::place(const TexelSite& texel, const Vec2& u) const {
   Place place;
   place.weights = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
-  const auto [b0, b1, b2] = place.weights;
+  const Vec3& share = place.weights;
   const SurfaceTriangle& triangle = surface_.triangles[texel.triangle];
-  const auto& [c0, c1, c2] = triangle.corners;
-  place.position = c0.position * b0 + c1.position * b1 + c2.position * b2;
+  const auto& corners = triangle.corners;
+  place.position =
+      corners[0].position * share.x + corners[1].position * share.y + corners[2].position * share.z;
   place.face = triangle.normal;
   const auto mixed = [&](Vec3 Frame::*axis) {
-    return c0.frame.*axis * b0 + c1.frame.*axis * b1 + c2.frame.*axis * b2;
+    return corners[0].frame.*axis * share.x + corners[1].frame.*axis * share.y +
+           corners[2].frame.*axis * share.z;
   };
-  place.frame = {mixed(&Frame::tangent), mixed(&Frame::bitangent), mixed(&Frame::normal), c0.frame.sign};
+  place.frame = {mixed(&Frame::tangent), mixed(&Frame::bitangent), mixed(&Frame::normal),
+                 corners[0].frame.sign};
   return place;
 }
 

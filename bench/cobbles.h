@@ -1,0 +1,12 @@
+// bench/cobbles.h - a height map to measure on: cobbles under fractal noise, the same on every machine.
+#pragma once
+
+#include "ssbump/height_field.h"
+
+namespace rnmbake {
+
+/// side x side texels that repeat without a seam, heights from 0 to `range` texels. Stones are some 64 texels
+/// wide at any side, which should be a multiple of 64.
+[[nodiscard]] HeightField cobbles(int side, float range);
+
+}  // namespace rnmbake

@@ -1,0 +1,256 @@
+// bench/ssbump.cpp - self-shadowed bump maps: how long a sweep takes and how far off it is, beside a loop of
+// Embree's rays over the same heights.
+//
+// Prints one JSON object. Times are the best of some runs where one is short.
+#include "base/clock.h"
+#include "cobbles.h"
+#include "ray_loop.h"
+#include "ssbump/bilateral.h"
+#include "ssbump/generate.h"
+#include "ssbump/height_fields.h"
+#include "ssbump/horizon_sweep.h"
+#include "ssbump/trace_heights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace rnmbake {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kRuns = 3;
+constexpr float kRange = 32, kEdgeShare = 0.03F;  // heights; of them, as in the command
+constexpr int kMargin = 256;                      // past which rays of the loop meet nothing
+constexpr int kPart = 16;                         // of the loop's rows are traced to choose how to go on
+constexpr std::uint64_t kSeedOfLoop = 1, kSeedOfTruth = 2;
+
+struct Arguments {
+  int side = 1024, threads = 2, rays = 256, samples = 200, truth_rays = 65536;
+  double patience = 30;
+  std::vector<int> sides{512, 1024, 2048, 4096, 8192};
+};
+
+double seconds_of(const std::function<void()>& work) {
+  const double start = steady_clock().now();
+  work();
+  return steady_clock().now() - start;
+}
+
+/// Once if that takes longer than `enough` seconds.
+double best_of(int runs, const std::function<void()>& work, double enough = 4) {
+  double best = seconds_of(work);
+  for (int i = 1; i < runs && best < enough; ++i) best = std::min(best, seconds_of(work));
+  return best;
+}
+
+struct Texel {
+  int x = 0, y = 0;
+};
+
+/// Spread evenly over the map (Roberts' R2 sequence).
+std::vector<Texel> samples_of(int side, int count) {
+  std::vector<Texel> samples;
+  for (int i = 1; i <= count; ++i) {
+    const auto at = [&](double step) { return static_cast<int>(std::fmod(i * step, 1) * side); };
+    samples.push_back({at(0.7548776662466927), at(0.5698402909980532)});
+  }
+  return samples;
+}
+
+/// A number for each sample, in parallel.
+std::vector<Channels> for_each(const std::vector<Texel>& samples,
+                               const std::function<Channels(Texel)>& weights) {
+  std::vector<Channels> all(samples.size());
+  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) { all[i] = weights(samples[i]); });
+  return all;
+}
+
+/// Over the three axes and straight up; ambient occlusion is the latter again.
+json errors(const std::vector<Channels>& found, const std::vector<Channels>& truth) {
+  double squares = 0, largest = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t c = 0; c < SsbumpWeights::ambient; ++c) {
+      const double error = std::abs(found[i][c] - truth[i][c]);
+      squares += error * error;
+      largest = std::max(largest, error);
+    }
+  }
+  return {{"rmse", std::sqrt(squares / double(found.size() * SsbumpWeights::ambient))}, {"max", largest}};
+}
+
+/// By rays into the bilinear surface.
+Channels traced(const HeightTracer& tracer, Texel texel, const std::vector<WeightedRay>& rays) {
+  const HeightPlace from = tracer.centre(texel.x, texel.y);
+  Channels seen{}, whole{};
+  for (const WeightedRay& ray : rays) {
+    const bool open = !tracer.next(from, Vec3d(ray.direction));
+    for (std::size_t c = 0; c < whole.size(); ++c) {
+      whole[c] += double{ray.weight[c]};
+      if (open) seen[c] += double{ray.weight[c]};
+    }
+  }
+  for (std::size_t c = 0; c < whole.size(); ++c) seen[c] /= whole[c];
+  return seen;
+}
+
+std::vector<Channels> picked(const SsbumpWeights& weights, const std::vector<Texel>& samples) {
+  return for_each(samples, [&](Texel texel) {
+    Channels found;
+    std::ranges::copy(weights.image.texel(texel.x, texel.y), found.begin());
+    return found;
+  });
+}
+
+struct Truths {
+  std::vector<Texel> samples;
+  std::vector<Channels> by_rays, by_horizons;
+};
+
+Truths truths_of(const HeightField& field, const Arguments& arguments) {
+  Truths truths{samples_of(arguments.side, arguments.samples), {}, {}};
+  const HeightTracer tracer(field);
+  const HemisphereRays rays(arguments.truth_rays, 1, kSeedOfTruth);
+  truths.by_rays = for_each(truths.samples, [&](Texel texel) { return traced(tracer, texel, rays.set(0)); });
+  const HeightRays surface(field);
+  truths.by_horizons =
+      for_each(truths.samples, [&](Texel texel) { return exact_weights(surface, texel.x, texel.y, 1); });
+  return truths;
+}
+
+json measure_sweep(const HeightField& field, const Truths& truths, GenerateOptions options) {
+  SsbumpWeights weights;
+  json result{{"seconds", best_of(kRuns, [&] { weights = generate(field, options); })}};
+  const std::vector<Channels> found = picked(weights, truths.samples);
+  result["error"] = errors(found, truths.by_rays);
+  result["error_to_horizons"] = errors(found, truths.by_horizons);
+  return result;
+}
+
+json measure_instructions(const HeightField& field, const GenerateOptions& options) {
+  json result = json::object();
+  const SweepIsa best = best_isa();
+  for (const auto& [isa, name] :
+       {std::pair(SweepIsa::baseline, "baseline"), {SweepIsa::avx2, "avx2"}, {SweepIsa::avx512, "avx512"}}) {
+    if (isa > best) continue;
+    limit_isa(isa);
+    result[name] = best_of(kRuns, [&] { static_cast<void>(generate(field, options)); });
+  }
+  limit_isa(best);
+  return result;
+}
+
+json measure_sides(const Arguments& arguments, const GenerateOptions& options) {
+  json rows = json::array();
+  for (const int side : arguments.sides) {
+    const HeightField field = cobbles(side, kRange);
+    const double seconds =
+        best_of(kRuns, [&] { generate_rows(field, options, [](int, const SsbumpWeights&) {}); });
+    rows.push_back({{"side", side}, {"seconds", seconds}});
+  }
+  return rows;
+}
+
+json measure_filter(const HeightField& field, int threads) {
+  const BilateralOptions options{.edge = kEdgeShare * kRange, .threads = threads};
+  const double seconds = best_of(kRuns, [&] { static_cast<void>(bilateral(field, options)); });
+  return {{"radius", options.radius}, {"seconds", seconds}};
+}
+
+/// The loop over some of the rows of squares, `step` apart.
+double time_loop(const RayLoop& loop, const HemisphereRays& rays, RayLoop::Packet packet, int step,
+                 SsbumpWeights& weights) {
+  return seconds_of([&] {
+    for (int row = step / 2; row < loop.tile_rows(); row += step) loop.trace_row(row, rays, packet, weights);
+  });
+}
+
+json measure_loop(const HeightField& field, const Truths& truths, const Arguments& arguments) {
+  const double start = steady_clock().now();
+  const RayLoop loop(field, kMargin);
+  json result{{"rays", arguments.rays}, {"build_seconds", steady_clock().now() - start}};
+  const HemisphereRays rays(arguments.rays, 1, kSeedOfLoop);
+  SsbumpWeights weights{FloatImage(field.width(), field.height(), SsbumpWeights::channels)};
+
+  const int step = std::min(kPart, loop.tile_rows());
+  const int rows = (loop.tile_rows() - step / 2 + step - 1) / step;
+  const double share = double(loop.tile_rows()) / rows;
+  const double ones = share * time_loop(loop, rays, RayLoop::Packet::one, step, weights);
+  const double eights = share * time_loop(loop, rays, RayLoop::Packet::eight, step, weights);
+  const RayLoop::Packet packet = ones < eights ? RayLoop::Packet::one : RayLoop::Packet::eight;
+  const double expected = std::min(ones, eights);
+  const bool whole = expected <= arguments.patience;
+  result["seconds_by_ones"] = ones;
+  result["seconds_by_eights"] = eights;
+  result["packet"] = packet == RayLoop::Packet::one ? 1 : 8;
+  result["rows_traced"] = whole ? field.height() : rows * RayLoop::tile;
+  result["seconds"] = whole ? time_loop(loop, rays, packet, 1, weights) : expected;
+
+  if (!whole) {  // samples lie in any row
+    for (const Texel& texel : truths.samples) loop.trace_square(texel.x, texel.y, rays, packet, weights);
+  }
+  const HemisphereRays many(arguments.truth_rays, 1, kSeedOfTruth);
+  const auto own =
+      for_each(truths.samples, [&](Texel texel) { return loop.texel(texel.x, texel.y, many.set(0)); });
+  const std::vector<Channels> found = picked(weights, truths.samples);
+  result["error"] = errors(found, truths.by_rays);
+  result["error_of_own_surface"] = errors(found, own);
+  result["surfaces_differ"] = errors(own, truths.by_rays);
+  return result;
+}
+
+json measure(const Arguments& arguments) {
+  GenerateOptions options;
+  options.threads = arguments.threads;
+  const HeightField field = cobbles(arguments.side, kRange);
+  const Truths truths = truths_of(field, arguments);
+  json result{{"side", arguments.side},       {"threads", arguments.threads},
+              {"samples", arguments.samples}, {"truth_rays", arguments.truth_rays},
+              {"azimuths", options.azimuths}, {"truths_differ", errors(truths.by_rays, truths.by_horizons)}};
+  result["sweep"] = measure_sweep(field, truths, options);
+  result["loop"] = measure_loop(field, truths, arguments);
+  result["instructions"] = measure_instructions(field, options);
+  result["filter"] = measure_filter(field, arguments.threads);
+  result["sides"] = measure_sides(arguments, options);
+  return result;
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Times self-shadowed bump maps of heights");
+  app.add_option("--side", arguments.side, "of the map that the methods are compared on");
+  app.add_option("--sides", arguments.sides, "of maps that the sweep is timed on");
+  app.add_option("--threads", arguments.threads);
+  app.add_option("--rays", arguments.rays, "of the loop, for each texel");
+  app.add_option("--samples", arguments.samples, "texels whose truth is known");
+  app.add_option("--truth-rays", arguments.truth_rays);
+  app.add_option("--patience", arguments.patience, "seconds; a loop that takes longer is extrapolated");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  return arguments;
+}
+
+}  // namespace
+}  // namespace rnmbake
+
+int main(int argc, char** argv) {
+  const rnmbake::Arguments arguments = rnmbake::parse(argc, argv);
+  tbb::task_arena arena(arguments.threads);
+  arena.execute([&] { std::cout << rnmbake::measure(arguments).dump(2) << '\n'; });
+}
