@@ -13,26 +13,13 @@ namespace rnmbake {
 namespace {
 
 constexpr int least_period = 128;  // fewer steps hold too few slopes of lines that run into themselves
-constexpr int block = 32;         // side of the squares that are transposed at once
+constexpr int block = 32;          // side of the squares that are transposed at once
 
 GridAxis axis_of(int size, Beyond beyond, int least) {
   GridAxis axis{size, size, beyond};
   if (beyond == Beyond::mirror) axis.period = 2 * size;
   if (beyond != Beyond::none) axis.period *= (least + axis.period - 1) / axis.period;
   return axis;
-}
-
-/// to[x * height + y] = from[y * pitch + x] for all x, y, block by block.
-void transpose(const float* from, std::size_t pitch, int width, int height, float* to) {
-  tbb::parallel_for(0, (width + block - 1) / block, [&](int column) {
-    const int left = column * block, right = std::min(width, left + block);
-    for (int top = 0; top < height; top += block) {
-      for (int x = left; x < right; ++x) {
-        for (int y = top; y < std::min(height, top + block); ++y)
-          to[std::size_t(x) * height + y] = from[std::size_t(y) * pitch + x];
-      }
-    }
-  });
 }
 
 /// A sweep over all azimuths of one grid.
@@ -66,7 +53,8 @@ class Sweeps {
 
 /// Both sums together, channels interleaved.
 SsbumpWeights together(const SweepTarget& by_rows, const SweepTarget& by_columns) {
-  const int width = static_cast<int>(by_rows.pitch()), height = static_cast<int>(by_columns.pitch());
+  const int width = by_rows.last_line - by_rows.first_line,
+            height = by_columns.last_line - by_columns.first_line;
   SsbumpWeights weights{FloatImage(width, height, SsbumpWeights::channels)};
   std::vector<float>& out = weights.image.data();
   constexpr auto channels = std::size_t{SsbumpWeights::channels};
@@ -77,8 +65,9 @@ SsbumpWeights together(const SweepTarget& by_rows, const SweepTarget& by_columns
           float* texel = &out[(std::size_t(y) * width + x) * channels];
           for (std::size_t c = 0; c < channels; ++c) {
             const std::size_t plane = std::min(c, std::size_t(by_rows.planes) - 1);
-            const float sum = by_rows.sums[plane * by_rows.plane() + std::size_t(y) * width + x] +
-                              by_columns.sums[plane * by_columns.plane() + std::size_t(x) * height + y];
+            const float sum =
+                by_rows.sums[plane * by_rows.plane() + std::size_t(y) * by_rows.pitch() + x] +
+                by_columns.sums[plane * by_columns.plane() + std::size_t(x) * by_columns.pitch() + y];
             texel[c] = std::clamp(sum, 0.0F, 1.0F);
           }
         }
@@ -94,18 +83,17 @@ SsbumpWeights horizon_rows(const HeightField& field, const GenerateOptions& opti
                            int last_row, const std::function<void(double)>& progress,
                            const std::function<bool()>& stop) {
   const int width = field.width(), height = field.height();
-  HorizonGrid by_rows, by_columns;
-  by_rows.heights = field.heights.data().data();
-  by_rows.steps = axis_of(height, field.y, least_period);
-  by_rows.lines = axis_of(width, field.x, 1);
-  by_columns.steps = axis_of(width, field.x, least_period);
-  by_columns.lines = axis_of(height, field.y, 1);
-  by_columns.transposed = true;
+  HorizonGrid by_rows =
+      make_grid(axis_of(height, field.y, least_period), axis_of(width, field.x, 1), options.near_rows);
+  HorizonGrid by_columns =
+      make_grid(axis_of(width, field.x, least_period), axis_of(height, field.y, 1), options.near_rows);
 
   SweepTarget rows, columns;
   rows.first_step = columns.first_line = first_row;
   rows.last_step = columns.last_line = last_row;
   rows.last_line = columns.last_step = width;
+  std::vector<float> memory;
+  lay_heights(by_rows, field.heights, false, options.near_rows, memory);
   const AzimuthSets azimuths =
       make_azimuths(by_rows, by_columns, {options.azimuths, options.near_rows, options.power});
 
@@ -116,12 +104,8 @@ SsbumpWeights horizon_rows(const HeightField& field, const GenerateOptions& opti
   };
   Sweeps sweeps(options, say, stop);
   sweeps.run(by_rows, azimuths.by_rows, rows);
-  {
-    std::vector<float> transposed(field.heights.texels());
-    transpose(by_rows.heights, std::size_t(width), width, height, transposed.data());
-    by_columns.heights = transposed.data();
-    sweeps.run(by_columns, azimuths.by_columns, columns);
-  }
+  lay_heights(by_columns, field.heights, true, options.near_rows, memory);
+  sweeps.run(by_columns, azimuths.by_columns, columns);
   return together(rows, columns);
 }
 

@@ -39,28 +39,64 @@ void lay_lines(Azimuth& azimuth, const GridAxis& steps) {
   }
 }
 
-/// Where a ray leaves the texel, and where it crosses the lines between texels up to `rows` steps away. The
-/// surface is straight along all of these but the first, whose slope is that of the tangent.
-std::vector<NearTap> near_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
-  const double aside = sign * slope, steep = std::abs(slope);
-  const int side = aside < 0 ? -1 : 1;
-  std::vector<NearTap> taps;
-  taps.push_back({sign, 0, 0, side, static_cast<float>(steep / (1 + steep)), static_cast<float>(1 + steep)});
-  for (int row = 1; row <= rows; ++row) {
-    const int line = static_cast<int>(std::floor(row * aside));
-    taps.push_back({sign * row, line, sign * row, line + 1, static_cast<float>(row * aside - line),
-                    static_cast<float>(1.0 / row)});
-  }
+constexpr double least_bend = 0.01;  // of a patch's twist, by which its middle may be steeper
+
+/// Where a ray crosses the line between texels that is `row` steps away.
+NearTap row_crossing(double slope, int sign, int row, std::ptrdiff_t pitch) {
+  const double aside = row * sign * slope, line = std::floor(aside);
+  const std::ptrdiff_t at = sign * row * pitch + static_cast<std::ptrdiff_t>(line);
+  return {at, at + 1, static_cast<float>(aside - line), static_cast<float>(1.0 / row)};
+}
+
+/// How far along a ray it crosses lines between texels up to `rows` steps away, in steps.
+std::vector<double> crossings(double slope, int rows) {
+  const double steep = std::abs(slope);
+  std::vector<double> ways;
+  for (int row = 1; row <= rows; ++row) ways.push_back(row);
   for (int line = 1; line < rows * steep; ++line) {
     const double way = line / steep;
+    if (way - std::floor(way) >= 1e-6) ways.push_back(way);  // else a texel's centre, which is there already
+  }
+  std::ranges::sort(ways);
+  return ways;
+}
+
+/// Where a ray leaves the texel, and where it crosses the lines between texels.
+std::vector<NearTap> near_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
+  const double steep = std::abs(slope);
+  const int side = sign * slope < 0 ? -1 : 1;
+  std::vector<NearTap> taps;
+  taps.push_back(
+      {sign * pitch, side, static_cast<float>(steep / (1 + steep)), static_cast<float>(1 + steep)});
+  for (const double way : crossings(slope, rows)) {
     const int row = static_cast<int>(std::floor(way));
-    if (way - row < 1e-6) continue;  // a texel's centre, which is there already
-    taps.push_back({sign * row, side * line, sign * (row + 1), side * line, static_cast<float>(way - row),
+    if (way == row) {
+      taps.push_back(row_crossing(slope, sign, row, pitch));
+      continue;
+    }
+    const int line = side * static_cast<int>(std::lround(way * steep));
+    taps.push_back({sign * row * pitch + line, sign * (row + 1) * pitch + line, static_cast<float>(way - row),
                     static_cast<float>(1 / way)});
   }
-  for (NearTap& tap : taps) {
-    tap.a = tap.step_a * pitch + tap.line_a;
-    tap.b = tap.step_b * pitch + tap.line_b;
+  return taps;
+}
+
+/// The surface is straight along the lines between texels, a parabola along rays across a patch. In the first
+/// patch the steepest way is at one of its ends.
+std::vector<PatchTap> patch_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
+  const std::vector<double> ways = crossings(slope, rows);
+  std::vector<PatchTap> taps;
+  for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
+    const double length = ways[i + 1] - ways[i], way = (ways[i] + ways[i + 1]) / 2;
+    if (std::abs(slope) * length * length / 4 < least_bend * way) continue;
+    const double step = sign * way, line = step * slope, from_step = std::floor(step),
+                 from_line = std::floor(line);
+    const auto u = static_cast<float>(line - from_line), v = static_cast<float>(step - from_step);
+    PatchTap tap;
+    tap.at = static_cast<std::ptrdiff_t>(from_step) * pitch + static_cast<std::ptrdiff_t>(from_line);
+    tap.shares = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+    tap.per_height = static_cast<float>(1 / way);
+    taps.push_back(tap);
   }
   return taps;
 }
@@ -72,9 +108,12 @@ std::vector<Azimuth> lay_azimuths(const HorizonGrid& grid, const AzimuthOptions&
     Azimuth& azimuth = set[static_cast<std::size_t>(i)];
     azimuth.slope = std::tan(pi / 2 * ((i + 0.5) / count - 0.5));
     lay_lines(azimuth, grid.steps);
-    for (const int sign : {1, -1})
-      azimuth.ways[sign > 0 ? 0 : 1].taps =
-          near_taps(azimuth.slope, sign, options.near_rows, grid.lines.size);
+    for (const int sign : {1, -1}) {
+      Azimuth::Way& way = azimuth.ways[sign > 0 ? 0 : 1];
+      way.taps = near_taps(azimuth.slope, sign, options.near_rows, grid.pitch);
+      way.patches = patch_taps(azimuth.slope, sign, options.near_rows, grid.pitch);
+      way.beyond = row_crossing(azimuth.slope, sign, options.near_rows + 1, grid.pitch);
+    }
   }
   return set;
 }

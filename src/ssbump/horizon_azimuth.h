@@ -28,9 +28,16 @@ struct AzimuthLobes {
 /// One place of the surface about a texel: between two heights, `part` of the way from a to b; the slope to
 /// it is the height over the texel times `per_height`.
 struct NearTap {
-  int step_a = 0, line_a = 0, step_b = 0, line_b = 0;
+  std::ptrdiff_t a = 0, b = 0;  // in memory, from the texel
   float part = 0, per_height = 0;
-  std::ptrdiff_t a = 0, b = 0;  // the same in memory
+};
+
+/// The middle of the way across one patch: there the surface may stand higher than where the patch begins and
+/// ends. `shares` are of the corners (step, line), (step, line + 1), (step + 1, line), (step + 1, line + 1).
+struct PatchTap {
+  std::ptrdiff_t at = 0;  // the first corner in memory, from the texel
+  std::array<float, 4> shares;
+  float per_height = 0;
 };
 
 /// A direction and its opposite, as lines over a grid: with each step they move aside by slope <= 1.
@@ -43,6 +50,8 @@ struct Azimuth {
   float per_step = 0;               // 1 / length of a step
   struct Way {
     std::vector<NearTap> taps;
+    std::vector<PatchTap> patches;
+    NearTap beyond;  // straight from the texel's centre, one step behind the near rows
     AzimuthLobes lobes;
   };
   std::array<Way, 2> ways;  // forth and back

@@ -4,6 +4,7 @@
 #include "ssbump/height_field.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace rnmbake {
 
@@ -31,15 +32,28 @@ struct GridAxis {
 };
 
 /// Neighbours along `lines` are neighbours in memory; sweeps go along `steps`. Rows of the map go along
-/// `lines` or along `steps`: then `heights` is the transposed map.
+/// `lines` or along `steps`. The heights about the map lie in memory as well, as far as texels near the
+/// border look.
 struct HorizonGrid {
-  const float* heights = nullptr;
+  const float* heights = nullptr;  // of texel (0, 0)
+  std::ptrdiff_t pitch = 0;        // from step to step
   GridAxis steps, lines;
-  bool transposed = false;
 
-  [[nodiscard]] const float* row(int step) const {
-    return heights + static_cast<std::ptrdiff_t>(steps.texel(step)) * lines.size;
-  }
+  [[nodiscard]] const float* row(int step) const { return at(steps.texel(step), 0); }
+  [[nodiscard]] const float* at(int step, int line) const { return heights + step * pitch + line; }
 };
+
+/// How many floats rows have to be apart: more than `least`, and so that rows do not compete for the same
+/// places of a cache.
+[[nodiscard]] constexpr std::size_t row_pitch(std::size_t least) {
+  return ((least + 15) / 16 | 1) * 16;
+}
+
+/// Without heights yet, for texels that look up to `near_rows` + 1 steps about.
+[[nodiscard]] HorizonGrid make_grid(const GridAxis& steps, const GridAxis& lines, int near_rows);
+
+/// Lays the field's heights into `memory`. `transposed`: steps go along rows.
+void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, int near_rows,
+                 std::vector<float>& memory);
 
 }  // namespace rnmbake

@@ -97,27 +97,25 @@ class GroupSweep {
     height = a + part * (b - a);
   }
 
-  /// The texel that lane 0 stands on at a step.
+  /// The texel that lane 0 stands on at a step; negative where other lanes have come to the next period.
   RNM_LANES int texel_line(int step) const {
-    const int line = start_ + azimuth_.nearest[static_cast<std::size_t>(step)];
-    return grid_.lines.repeats() && (line < 0 || line >= grid_.lines.period) ? grid_.lines.fold(line) : line;
-  }
-  RNM_LANES bool inside(int line, int margin) const {
-    return line >= margin && line + count + margin <= grid_.lines.size;
+    int line = start_ + azimuth_.nearest[static_cast<std::size_t>(step)];
+    if (!grid_.lines.repeats()) return line;
+    if (line < 0 || line >= grid_.lines.period) line = grid_.lines.fold(line);
+    return line + count > grid_.lines.period ? line - grid_.lines.period : line;
   }
   /// The texel of the target of a lane, or -1.
   RNM_LANES int target_line(int line, int lane) const {
     if (!job_.lines.valid(start_ + lane)) return -1;
     int texel = line + lane;
-    if (grid_.lines.repeats() && texel >= grid_.lines.period) texel -= grid_.lines.period;
+    if (grid_.lines.repeats() && texel < 0) texel += grid_.lines.period;
     const SweepTarget& target = job_.target;
     return texel >= target.first_line && texel < target.last_line ? texel - target.first_line : -1;
   }
   RNM_LANES bool wanted(int line) const {
     const SweepTarget& target = job_.target;
-    if (line + count <= target.first_line) return false;
-    if (line < target.last_line) return true;
-    return grid_.lines.repeats() && line + count > grid_.lines.period + target.first_line;
+    if (line < target.last_line && line + count > target.first_line) return true;
+    return grid_.lines.repeats() && line < 0 && line + grid_.lines.period < target.last_line;
   }
 
   /// Each step is in another page, which no processor foresees.
@@ -127,7 +125,7 @@ class GroupSweep {
     const std::ptrdiff_t at = std::clamp(line, 0, grid_.lines.size - 1);
     const int height_step = step - Sign * soon;
     if (height_step >= 0 && height_step < grid_.steps.size) {
-      const float* heights = grid_.heights + static_cast<std::ptrdiff_t>(height_step) * grid_.lines.size + at;
+      const float* heights = grid_.heights + static_cast<std::ptrdiff_t>(height_step) * grid_.pitch + at;
       __builtin_prefetch(heights);
       __builtin_prefetch(heights + count);
     }
@@ -145,42 +143,31 @@ class GroupSweep {
     }
   }
 
-  RNM_LANES void eyes(Float& eye, int step, int line) const {
-    const float* row = grid_.row(step);
-    if (inside(line, 0)) {
-      L::load(eye, row + line);
-    } else {
-      std::array<float, count> values;
-      fill_lanes(values.data(), count, grid_, row, line);
-      L::load(eye, values.data());
-    }
-  }
-
-  /// The largest slope to the places about the texels.
-  RNM_LANES void look_near(Float& slope, const std::vector<NearTap>& taps, int step, int line,
+  /// The largest slope to the places about the texels, and how high the surface is right behind them.
+  RNM_LANES void look_near(Float& slope, Float& beyond, const Azimuth::Way& way, int step, int line,
                            const Float& eye) const {
-    if (inside(line, job_.near_rows + 1) && step > job_.near_rows &&
-        step + job_.near_rows + 1 < grid_.steps.size) {
-      const float* here = grid_.row(step) + line;
-      for (const NearTap& tap : taps) {
-        Float a, b;
-        L::load(a, here + tap.a);
-        L::load(b, here + tap.b);
-        L::keep_larger(slope, (a + tap.part * (b - a) - eye) * tap.per_height);
-      }
-      return;
+    const float* here = grid_.at(step, line);
+    for (const NearTap& tap : way.taps) {
+      Float height;
+      look_at(height, here, tap);
+      L::keep_larger(slope, (height - eye) * tap.per_height);
     }
-    for (const NearTap& tap : taps) {
-      const float* row_a = grid_.row(step + tap.step_a);
-      const float* row_b = tap.step_b == tap.step_a ? row_a : grid_.row(step + tap.step_b);
-      Float a, b;
-      std::array<float, count> values;
-      fill_lanes(values.data(), count, grid_, row_a, line + tap.line_a);
-      L::load(a, values.data());
-      fill_lanes(values.data(), count, grid_, row_b, line + tap.line_b);
-      L::load(b, values.data());
-      L::keep_larger(slope, (a + tap.part * (b - a) - eye) * tap.per_height);
+    for (const PatchTap& tap : way.patches) {
+      Float a, b, c, d;
+      L::load(a, here + tap.at);
+      L::load(b, here + tap.at + 1);
+      L::load(c, here + tap.at + grid_.pitch);
+      L::load(d, here + tap.at + grid_.pitch + 1);
+      const Float height = a * tap.shares[0] + b * tap.shares[1] + c * tap.shares[2] + d * tap.shares[3];
+      L::keep_larger(slope, (height - eye) * tap.per_height);
     }
+    look_at(beyond, here, way.beyond);
+  }
+  RNM_LANES static void look_at(Float& height, const float* here, const NearTap& tap) {
+    Float a, b;
+    L::load(a, here + tap.a);
+    L::load(b, here + tap.b);
+    height = a + tap.part * (b - a);
   }
 
   /// What stands beyond the border.
@@ -286,16 +273,15 @@ class GroupSweep {
         hull.push(static_cast<float>(place) + ahead, height);
         continue;
       }
-      Float eye, slope, far;
+      Float eye, slope, far, straight;
       prefetch<Sign>(step, line);
-      eyes(eye, step, line);
+      L::load(eye, grid_.at(step, line));
       L::set(slope, 0);
-      look_near(slope, way.taps, step, line, eye);
-      // The line may pass up to half a texel beside the texel's centre. Where it does so higher up, its
-      // points are seen from there, or a plane would stand in its own light.
-      Float beside;
-      sample(beside, step);
-      L::keep_larger(beside, eye);
+      look_near(slope, straight, way, step, line, eye);
+      // The line may pass up to half a texel beside the texel's centre: its points are seen from as much
+      // higher up as the first of them is higher than straight ahead, or planes would stand in their own
+      // light.
+      const Float beside = eye + (height - straight);
       hull.push_and_look(far, static_cast<float>(place), beside, ahead, height);
       L::keep_larger(slope, far);
       slope = slope * azimuth_.per_step;

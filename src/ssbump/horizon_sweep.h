@@ -19,7 +19,9 @@ struct SweepTarget {
   int planes = 4;  // 4: power 1, straight up and ambient are the same
   std::vector<float> sums;
 
-  [[nodiscard]] std::size_t pitch() const { return static_cast<std::size_t>(last_line - first_line); }
+  [[nodiscard]] std::size_t pitch() const {
+    return row_pitch(static_cast<std::size_t>(last_line - first_line));
+  }
   [[nodiscard]] std::size_t plane() const {
     return pitch() * static_cast<std::size_t>(last_step - first_step);
   }
