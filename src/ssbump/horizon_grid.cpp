@@ -22,7 +22,7 @@ int lines_about(int near_rows) {
 HorizonGrid make_grid(const GridAxis& steps, const GridAxis& lines, int near_rows) {
   const auto pitch =
       row_pitch(static_cast<std::size_t>(lines.size) + 2 * std::size_t(lines_about(near_rows)));
-  return {nullptr, static_cast<std::ptrdiff_t>(pitch), steps, lines};
+  return {nullptr, static_cast<std::ptrdiff_t>(pitch), steps, lines, 0};
 }
 
 void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, int near_rows,
@@ -32,6 +32,8 @@ void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, 
   memory.resize(static_cast<std::size_t>(grid.pitch) * (std::size_t(steps) + 2 * std::size_t(over)));
   float* const first = memory.data() + over * grid.pitch + aside;
   grid.heights = first;
+  const auto [lowest, highest] = std::ranges::minmax(heights.data());
+  grid.range = highest - lowest;
   const float* const from = heights.data().data();
   const std::ptrdiff_t by_step = transposed ? 1 : lines, by_line = transposed ? steps : 1;
   tbb::parallel_for(0, (steps + block - 1) / block, [&](int part) {

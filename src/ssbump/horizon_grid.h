@@ -38,6 +38,7 @@ struct HorizonGrid {
   const float* heights = nullptr;  // of texel (0, 0)
   std::ptrdiff_t pitch = 0;        // from step to step
   GridAxis steps, lines;
+  float range = 0;  // of the heights
 
   [[nodiscard]] const float* row(int step) const { return at(steps.texel(step), 0); }
   [[nodiscard]] const float* at(int step, int line) const { return heights + step * pitch + line; }

@@ -13,6 +13,8 @@ namespace rnmbake {
 namespace {
 
 constexpr int most_periods = 256;     // that are looked over for something higher
+constexpr int every_step = 64;        // behind a border that goes on
+constexpr double least_rise = 0.01;   // of a horizon, behind a border that goes on
 constexpr float least_slope = 2e-5F;  // what cannot rise above is not looked for
 
 void fill_lanes(float* values, int how_many, const HorizonGrid& grid, const float* row, int line) {
@@ -173,27 +175,23 @@ class GroupSweep {
   /// What stands beyond the border.
   template <int Sign>
   RNM_LANES void look_beyond(Hull<Width>& hull) const {
-    const int farthest = grid_.steps.repeats() ? look_over_periods<Sign>(hull) : farthest_going_on<Sign>();
-    for (int place = farthest; place > period_ + job_.near_rows; --place) {
+    const bool repeats = grid_.steps.repeats();
+    int place = repeats ? look_over_periods<Sign>(hull) : farthest_going_on();
+    // Far behind a border that goes on, heights change with the lines alone: two looks at each are enough.
+    const int stride = repeats ? 1 : std::max(1, static_cast<int>(0.5 / std::abs(azimuth_.slope)));
+    while (place > period_ + job_.near_rows) {
       Float height;
       sample(height, step_at<Sign>(place));
       hull.push(static_cast<float>(place), height);
+      place -= place - stride > period_ + every_step ? stride : 1;
     }
   }
 
-  /// Where the lines are highest while the border goes on as far again as the map.
-  template <int Sign>
+  /// Until the lines have left the map sidewards, or nothing can rise by least_rise any more.
   RNM_LANES int farthest_going_on() const {
-    Float top;
-    L::set(top, no_height);
-    int farthest = 0;
-    for (int place = period_ + std::max(period_, grid_.lines.size) - 1; place >= period_; --place) {
-      Float height;
-      sample(height, step_at<Sign>(place));
-      if (farthest == 0 || L::any_above(height, top)) farthest = std::max(farthest, place);
-      L::keep_larger(top, height);
-    }
-    return farthest;
+    const double aside = grid_.lines.size / std::abs(azimuth_.slope);
+    const double useful = static_cast<double>(grid_.range) / least_rise;
+    return period_ + job_.near_rows + static_cast<int>(std::min({aside, useful, double{1 << 20}})) + 1;
   }
 
   /// Of the periods after the next one, whatever is higher than all before. Returns where the next period's

@@ -55,6 +55,33 @@ TEST(Horizon, IsThatOfTheBilinearSurface) {
   }
 }
 
+TEST(Horizon, KeepsToItsBoundsOnSteepWavesWithTwiceTheAzimuths) {
+  // slopes up to 3: lines that pass beside a texel's centre must not make waves stand in their own light
+  const HeightField waves = field_of(128, 128, Beyond::wrap, [](int x, int y) {
+    return 16 * (std::sin(2 * pi * x / 64) + std::sin(2 * pi * y / 64));
+  });
+  GenerateOptions options;
+  options.azimuths = 128;
+  const Errors found = errors(waves, options, 397);
+  EXPECT_LE(found.rms, 0.001);
+  EXPECT_LE(found.largest, 0.01);
+}
+
+TEST(Horizon, SeesTheMiddlesOfTwistedPatches) {
+  // beside a step's corner: across that patch the surface bulges over the straight line between its edges
+  const HeightField corner =
+      field_of(128, 128, Beyond::wrap, [](int x, int y) { return x < 64 && y < 64 ? 6 : 0; });
+  GenerateOptions options;
+  options.azimuths = 128;
+  const SsbumpWeights weights = generate(corner, options);
+  const HeightRays surface(corner);
+  for (const auto& [x, y] : {std::pair(65, 65), {65, 66}, {66, 65}, {66, 66}, {67, 66}, {65, 63}}) {
+    const Channels exact = exact_weights(surface, x, y, 1);
+    for (std::size_t c = 0; c < exact.size(); ++c)
+      EXPECT_NEAR(weights.image.texel(x, y)[c], exact[c], 0.01) << x << ' ' << y << ' ' << c;
+  }
+}
+
 TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
   const HeightField field = rough_field(128, 128, Beyond::wrap, 30);
   GenerateOptions options;
