@@ -82,6 +82,15 @@ TEST(Horizon, SeesTheMiddlesOfTwistedPatches) {
   }
 }
 
+TEST(Horizon, LooksAlongABorderThatGoesOn) {
+  // the groove's far side goes on behind the border and is seen at any angle to it
+  const HeightField groove =
+      field_of(128, 128, Beyond::none, [](int x, int) { return 4 * std::abs(x - 64); });
+  const Errors found = errors(groove, {}, 397);
+  EXPECT_LE(found.rms, 0.001);
+  EXPECT_LE(found.largest, 0.01);
+}
+
 TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
   const HeightField field = rough_field(128, 128, Beyond::wrap, 30);
   GenerateOptions options;
