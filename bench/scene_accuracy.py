@@ -21,6 +21,8 @@ SHARED = measure.ROOT / "../shared/scenes"
 OURS = {"cornell": (16, 64), "cave": (32, 64), "hall": (16, 32), "panels": (16, 64)}
 REAL = {"cornell_box": (16, 64), "living_room": (32, 64), "staircase2": (32, 64)}
 # Of large scenes the published recipe bakes only some objects: each of its calls loads the whole scene.
+# Its walls reflect so much that a bake's 32 bounces lose 7 % of the light: the reference stops there, too.
+BOUNCES = {"living_room": 32}
 DECOMPOSED = {"living_room": "Mesh00[013],Mesh040", "staircase2": "Mesh00*"}
 
 
@@ -63,7 +65,8 @@ def validate(name, scene, path, resolution, samples):
     with tempfile.TemporaryDirectory(dir=measure.WORK) as folder:
         cost = measure.run([measure.RNMBAKE, "validate", scene, "-o", folder, "--blender", path, "--view", 0,
                             "--resolution", resolution, "--samples", samples,
-                            "--decompose", DECOMPOSED.get(name, "*")])
+                            "--decompose", DECOMPOSED.get(name, "*"),
+                            *(["--bounces", BOUNCES[name]] if name in BOUNCES else [])])
         return {"wall": round(cost["wall"], 1), **figures(Path(folder))}
 
 
