@@ -36,14 +36,6 @@ std::vector<Tap> disc(int radius) {
   return taps;
 }
 
-/// The column or row whose height stands at `at`, which may lie beyond the border.
-int within(int at, int count, Beyond beyond) {
-  if (beyond == Beyond::none) return std::clamp(at, 0, count - 1);
-  const int period = beyond == Beyond::mirror ? 2 * count : count;
-  at = (at % period + period) % period;
-  return at < count ? at : period - 1 - at;
-}
-
 /// Some rows with what lies about them, in units of the edge.
 class Padded {
  public:
@@ -51,12 +43,13 @@ class Padded {
       : stride_(static_cast<std::size_t>(field.width() + 2 * radius + kBlock)),
         rows_(stride_ * static_cast<std::size_t>(end - begin + 2 * radius)) {
     for (int y = begin - radius; y < end + radius; ++y) {
-      const float* from = field.heights.texel(0, within(y, field.height(), field.y)).data();
+      const float* from = field.heights.texel(0, texel_beyond(y, field.height(), field.y)).data();
       float* to = row(y - begin + radius);
       const auto copy = [&](int x, int column) { to[x + radius] = from[column] / edge; };
-      for (int x = -radius; x < 0; ++x) copy(x, within(x, field.width(), field.x));
+      for (int x = -radius; x < 0; ++x) copy(x, texel_beyond(x, field.width(), field.x));
       for (int x = 0; x < field.width(); ++x) copy(x, x);
-      for (int x = field.width(); x < field.width() + radius; ++x) copy(x, within(x, field.width(), field.x));
+      for (int x = field.width(); x < field.width() + radius; ++x)
+        copy(x, texel_beyond(x, field.width(), field.x));
     }
   }
   [[nodiscard]] float* row(int y) { return &rows_[stride_ * static_cast<std::size_t>(y)]; }

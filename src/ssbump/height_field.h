@@ -11,6 +11,15 @@ namespace rnmbake {
 /// twice), or nothing new: the border's heights go on.
 enum class Beyond : std::uint8_t { wrap, mirror, none };
 
+/// The row or column, of `size`, whose heights lie at `i`, which may be any distance beyond a border.
+[[nodiscard]] constexpr int texel_beyond(int i, int size, Beyond beyond) {
+  if (i >= 0 && i < size) return i;
+  if (beyond == Beyond::none) return i < 0 ? 0 : size - 1;
+  const int period = beyond == Beyond::mirror ? 2 * size : size;
+  const int rest = i % period, folded = rest < 0 ? rest + period : rest;
+  return folded < size ? folded : period - 1 - folded;
+}
+
 /// Heights in texels (the distance of two neighbours is 1), one channel, row 0 on top. The surface is made of
 /// bilinear patches between texel centres. Tangent space is right-handed: +x to the right, +y UP the picture
 /// (towards row 0), +z out of it.

@@ -11,16 +11,9 @@ namespace {
 
 constexpr int kDiscDirections = 64;
 
-int inside(int i, int size, Beyond beyond) {
-  if (i >= 0 && i < size) return i;
-  if (beyond == Beyond::none) return std::clamp(i, 0, size - 1);
-  const int period = beyond == Beyond::wrap ? size : 2 * size;
-  const int rest = (i % period + period) % period;
-  return rest < size ? rest : 2 * size - 1 - rest;
-}
-
 double height_at(const HeightField& field, int x, int y) {
-  return field.heights.texel(inside(x, field.width(), field.x), inside(y, field.height(), field.y))[0];
+  return field.heights.texel(texel_beyond(x, field.width(), field.x),
+                             texel_beyond(y, field.height(), field.y))[0];
 }
 
 /// One axis of a walk over the grid of texel centres, begun on a grid point.

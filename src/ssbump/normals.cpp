@@ -16,21 +16,17 @@ void store(const Vec3& v, std::span<float> texel) {
   std::ranges::copy(std::array{v.x, v.y, v.z}, texel.begin());
 }
 
-int beside(int at, int step, int count, Beyond beyond) {
-  const int next = at + step;
-  if (next >= 0 && next < count) return next;
-  return beyond == Beyond::wrap ? (next + count) % count : at;
-}
-
 }  // namespace
 
 FloatImage height_normals(const HeightField& field, int begin, int end) {
   FloatImage normals(field.width(), end - begin, 3);
   const auto height = [&](int x, int y) { return field.heights.texel(x, y)[0]; };
   for (int y = begin; y < end; ++y) {
-    const int above = beside(y, -1, field.height(), field.y), below = beside(y, 1, field.height(), field.y);
+    const int above = texel_beyond(y - 1, field.height(), field.y),
+              below = texel_beyond(y + 1, field.height(), field.y);
     for (int x = 0; x < field.width(); ++x) {
-      const int left = beside(x, -1, field.width(), field.x), right = beside(x, 1, field.width(), field.x);
+      const int left = texel_beyond(x - 1, field.width(), field.x),
+                right = texel_beyond(x + 1, field.width(), field.x);
       const Vec3 slope((height(left, y) - height(right, y)) / 2, (height(x, below) - height(x, above)) / 2,
                        1);
       store(unit(slope), normals.texel(x, y - begin));

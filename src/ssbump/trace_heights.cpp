@@ -9,14 +9,6 @@ namespace {
 constexpr int most_cells = 65536;
 constexpr double off_surface = 1e-6;  // of the heights' range and a texel: so far rays begin over it
 
-int mapped(int i, int size, Beyond beyond) {
-  if (i >= 0 && i < size) return i;
-  if (beyond == Beyond::none) return std::clamp(i, 0, size - 1);
-  const int period = beyond == Beyond::wrap ? size : 2 * size;
-  const int rest = (i % period + period) % period;
-  return rest < size ? rest : 2 * size - 1 - rest;
-}
-
 /// One axis of a walk.
 struct Track {
   double start, speed;
@@ -56,7 +48,8 @@ HeightTracer::HeightTracer(const HeightField& field)
     : field_(field), highest_(*std::ranges::max_element(field.heights.data())) {}
 
 double HeightTracer::height(int x, int y) const {
-  return field_.heights.texel(mapped(x, field_.width(), field_.x), mapped(y, field_.height(), field_.y))[0];
+  return field_.heights.texel(texel_beyond(x, field_.width(), field_.x),
+                              texel_beyond(y, field_.height(), field_.y))[0];
 }
 
 HeightTracer::Patch HeightTracer::patch(int x, int y) const {
@@ -69,8 +62,8 @@ HeightPlace HeightTracer::centre(int x, int y) const {
 }
 
 std::pair<int, int> HeightTracer::texel(const HeightPlace& place) const {
-  return {mapped(static_cast<int>(std::lround(place.column)), field_.width(), field_.x),
-          mapped(static_cast<int>(std::lround(place.row)), field_.height(), field_.y)};
+  return {texel_beyond(static_cast<int>(std::lround(place.column)), field_.width(), field_.x),
+          texel_beyond(static_cast<int>(std::lround(place.row)), field_.height(), field_.y)};
 }
 
 std::optional<HeightHit> HeightTracer::next(const HeightPlace& from, const Vec3d& direction) const {

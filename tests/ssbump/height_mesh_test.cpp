@@ -42,13 +42,8 @@ HighMesh all_copies(const HeightField& field, double reach, PatchCuts cuts = Pat
 
 /// What the field is at any texel of the plane.
 float height_at(const HeightField& field, int x, int y) {
-  const auto place = [](int i, int count, Beyond beyond) {
-    if (beyond == Beyond::none) return std::clamp(i, 0, count - 1);
-    const int period = beyond == Beyond::mirror ? 2 * count : count;
-    const int within = ((i % period) + period) % period;
-    return within < count ? within : period - 1 - within;
-  };
-  return field.heights.texel(place(x, field.width(), field.x), place(y, field.height(), field.y))[0];
+  return field.heights.texel(texel_beyond(x, field.width(), field.x),
+                             texel_beyond(y, field.height(), field.y))[0];
 }
 
 TEST(HeightMesh, CopiesGoOnBeyondEveryBorder) {
