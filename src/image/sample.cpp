@@ -10,12 +10,6 @@ namespace {
 /// UVs are floats: at 8192 texels a centre is off by up to 3e-4 texels. Graphics cards round to 1/256.
 constexpr double kSnap = 1e-3;
 
-int wrapped(int i, int size, Border border) {
-  if (border == Border::clamp) return std::clamp(i, 0, size - 1);
-  const int rest = i % size;
-  return rest < 0 ? rest + size : rest;
-}
-
 /// Texel before and after a position along one axis, and the second one's weight.
 struct Span {
   int before = 0, after = 0;
@@ -30,7 +24,7 @@ Span span_at(double position, int size, Border border) {
   if (part > 1 - kSnap) whole += 1;
   if (part < kSnap || part > 1 - kSnap) part = 0;
   const int i = static_cast<int>(whole);
-  return {wrapped(i, size, border), wrapped(i + 1, size, border), static_cast<float>(part)};
+  return {texel_within(i, size, border), texel_within(i + 1, size, border), static_cast<float>(part)};
 }
 
 }  // namespace

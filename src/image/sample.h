@@ -11,6 +11,14 @@ namespace rnmbake {
 
 enum class Border { clamp, wrap };
 
+/// The row or column, of `size`, that stands for `i`, any distance beyond a border.
+[[nodiscard]] constexpr int texel_within(int i, int size, Border border) {
+  if (i >= 0 && i < size) return i;
+  if (border == Border::clamp) return i < 0 ? 0 : size - 1;
+  const int rest = i % size;
+  return rest < 0 ? rest + size : rest;
+}
+
 /// One texel's part in a bilinear lookup.
 struct Tap {
   int x = 0, y = 0;

@@ -14,13 +14,6 @@ Vec3 normal_at(const FloatImage& normals, int x, int y) {
   return {texel[0], texel[1], texel[2]};
 }
 
-int inside(int i, int size, Border border) {
-  if (i >= 0 && i < size) return i;
-  if (border == Border::clamp) return std::clamp(i, 0, size - 1);
-  const int rest = i % size;
-  return rest < 0 ? rest + size : rest;
-}
-
 constexpr float kLeastZ = 0.02F;  // of normals whose slope is asked for: 88.9 degrees
 
 /// How fast the light's ray rises over the surface of a texel.
@@ -39,8 +32,10 @@ float clearance_at(const FloatImage& normals, int x, int y, const Vec2& distance
   const float right = distance.x - whole_x, below = distance.y - whole_y;
   const int left_x = x + static_cast<int>(whole_x), top_y = y + static_cast<int>(whole_y);
   const Border border = options.border;
-  const int x0 = inside(left_x, normals.width(), border), x1 = inside(left_x + 1, normals.width(), border);
-  const int y0 = inside(top_y, normals.height(), border), y1 = inside(top_y + 1, normals.height(), border);
+  const int x0 = texel_within(left_x, normals.width(), border),
+            x1 = texel_within(left_x + 1, normals.width(), border);
+  const int y0 = texel_within(top_y, normals.height(), border),
+            y1 = texel_within(top_y + 1, normals.height(), border);
   const auto at = [&](int tap_x, int tap_y) { return clearance(normals, tap_x, tap_y, light, options); };
   return (1 - below) * ((1 - right) * at(x0, y0) + right * at(x1, y0)) +
          below * ((1 - right) * at(x0, y1) + right * at(x1, y1));
