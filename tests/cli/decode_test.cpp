@@ -1,7 +1,7 @@
 // The command as a user calls it: exit codes, messages and files.
 #include "base/files.h"
 #include "basis/rnm.h"
-#include "cli/app.h"
+#include "cli/command_test.h"
 #include "image/layered_exr.h"
 #include "lightmap/layout.h"
 #include "lightmap/merge.h"
@@ -22,7 +22,7 @@ FloatImage filled(int channels, float value) {
   return image;
 }
 
-class DecodeCommand : public testing::Test {
+class DecodeCommand : public CommandTest {
  protected:
   void SetUp() override {
     metadata_.bases = rnm_set().directions;
@@ -41,26 +41,15 @@ class DecodeCommand : public testing::Test {
     return path(name);
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  /// Runs `rnmbake decode ARGUMENTS -o out.exr`; what it said is in `said_`.
+  /// Runs `rnmbake decode ARGUMENTS -o out.exr`.
   int decode(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"rnmbake", "decode"});
     arguments.insert(arguments.end(), {"-o", path("out.exr")});
-    std::vector<const char*> words;
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
-    testing::internal::CaptureStderr();
-    const int code = run(static_cast<int>(words.size()), words.data());
-    said_ = testing::internal::GetCapturedStderr();
-    return code;
+    return call("decode", arguments);
   }
 
   [[nodiscard]] float result() const { return read_image(path("out.exr")).find("")->pixels.data()[0]; }
-  [[nodiscard]] bool said(const std::string& part) const { return said_.find(part) != std::string::npos; }
 
-  TempFolder folder_;
   LightmapMetadata metadata_;
-  std::string said_;
 };
 
 TEST_F(DecodeCommand, VariantsOfAFlatNormalUnderAUniformSky) {

@@ -1,7 +1,7 @@
 // The command as a user calls it: exit codes, messages and files.
 #include "base/files.h"
 #include "basis/rnm.h"
-#include "cli/app.h"
+#include "cli/command_test.h"
 #include "image/layered_exr.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"
@@ -19,15 +19,13 @@
 namespace rnmbake {
 namespace {
 
-class NmsCommand : public testing::Test {
+class NmsCommand : public CommandTest {
  protected:
   void SetUp() override {
     metadata_.bases = rnm_set().directions;
     metadata_.bases.push_back(flat_direction());
     normals_ = write_normals("n.exr");
   }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   /// A roof along the columns of a 64 x 8 map, as vectors.
   [[nodiscard]] std::string write_normals(const std::string& name, float green = 0) const {
@@ -63,27 +61,14 @@ class NmsCommand : public testing::Test {
     return path(name);
   }
 
-  int nms(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"rnmbake", "nms"});
-    std::vector<const char*> words;
-    words.reserve(arguments.size());
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    const int code = run(static_cast<int>(words.size()), words.data());
-    said_ = testing::internal::GetCapturedStderr();
-    printed_ = testing::internal::GetCapturedStdout();
-    return code;
-  }
+  int nms(const std::vector<std::string>& arguments) { return call("nms", arguments); }
 
   [[nodiscard]] FloatImage read(const std::string& name) const {
     return read_image(path(name)).layers[0].pixels;
   }
-  [[nodiscard]] bool said(const std::string& part) const { return said_.find(part) != std::string::npos; }
 
-  TempFolder folder_;
   LightmapMetadata metadata_;
-  std::string normals_, said_, printed_;
+  std::string normals_;
 };
 
 TEST_F(NmsCommand, EndingsAndBits) {

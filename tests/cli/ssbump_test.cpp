@@ -1,6 +1,6 @@
 // The command as a user calls it: height maps of every kind in, files and messages out.
 #include "base/files.h"
-#include "cli/app.h"
+#include "cli/command_test.h"
 #include "image/picture_rows.h"
 #include "pipeline/ssbump_picture.h"
 #include "ssbump/weights.h"
@@ -17,23 +17,9 @@
 namespace rnmbake {
 namespace {
 
-class SsbumpCommand : public testing::Test {
+class SsbumpCommand : public CommandTest {
  protected:
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  /// Runs `rnmbake ssbump ARGUMENTS`; what it said is in `said_` and `printed_`.
-  int ssbump(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"rnmbake", "ssbump"});
-    std::vector<const char*> words;
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    const int code = run(static_cast<int>(words.size()), words.data());
-    said_ = testing::internal::GetCapturedStderr();
-    printed_ = testing::internal::GetCapturedStdout();
-    return code;
-  }
-  [[nodiscard]] bool said(const std::string& part) const { return said_.find(part) != std::string::npos; }
+  int ssbump(const std::vector<std::string>& arguments) { return call("ssbump", arguments); }
 
   std::string write(const char* name, int width, int height, Storage storage, auto height_at) {
     std::vector<float> values;
@@ -57,11 +43,6 @@ class SsbumpCommand : public testing::Test {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()),
                                                   std::filesystem::directory_iterator()));
   }
-
-  std::string said_, printed_;
-
- private:
-  TempFolder folder_;
 };
 
 TEST_F(SsbumpCommand, GivesTheSameWeightsUnderEachScaleHandednessAndFormat) {
