@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "scene/surface.h"
 #include "scene/survey.h"
+#include "support/bases.h"
 
 #include <array>
 #include <cmath>
@@ -43,12 +44,6 @@ inline double uv_area(const Sheet& sheet) {
   double sum = 0;
   for (std::size_t i = 0; i < sheet.corners.size(); i += 3) sum += uv_area(&sheet.corners[i]);
   return sum;
-}
-
-inline std::vector<BasisDirection> flat_and_rnm() {
-  std::vector<BasisDirection> bases{flat_direction()};
-  for (const BasisDirection& basis : rnm_set().directions) bases.push_back(basis);
-  return bases;
 }
 
 inline Target make_target(const std::string& key, int width, int height, std::size_t object = 0) {

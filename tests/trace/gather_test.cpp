@@ -10,17 +10,6 @@
 namespace rnmbake {
 namespace {
 
-const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
-
-GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
-  GatherOptions options;
-  options.directions = flat_and_rnm();
-  options.samples = samples;
-  options.seed = seed;
-  options.footprint = Footprint::full;
-  return options;
-}
-
 /// Distance from the truth in standard errors, one for each direction (green channel, mean of the map).
 std::vector<double> deviations(const Gathered& gathered, const std::vector<double>& truth) {
   std::vector<double> z;

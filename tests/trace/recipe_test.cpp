@@ -17,9 +17,7 @@ RecipeFaults all_faults(const std::string& version) {
 }
 
 GatherOptions recipe_options(const std::string& version, int samples) {
-  GatherOptions options;
-  options.directions = flat_and_rnm();
-  options.samples = samples;
+  GatherOptions options = all_directions(samples);
   options.footprint = Footprint::centre;
   options.faults = all_faults(version);
   options.blender_version = version;

@@ -14,17 +14,7 @@
 namespace rnmbake {
 namespace {
 
-const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
 const Vec3 tint(0.5F, 0.25F, 0.75F);
-
-GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
-  GatherOptions options;
-  options.directions = flat_and_rnm();
-  options.samples = samples;
-  options.seed = seed;
-  options.footprint = Footprint::full;
-  return options;
-}
 
 void add_sheet(Exchange& scene, const std::vector<Quad>& quads, const Vec3& transmittance,
                const Vec3& albedo = Vec3(0), const Vec3& emission = Vec3(0)) {

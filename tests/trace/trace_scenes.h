@@ -1,12 +1,13 @@
 // tests/trace/trace_scenes.h - scenes of a few quads, built in memory, and their gathering.
 #pragma once
 
-#include "basis/basis_set.h"
 #include "scene/exchange.h"
 #include "scene/surface.h"
+#include "support/bases.h"
 #include "trace/gather.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -80,12 +81,6 @@ inline LightInfo light(const std::string& type, double energy, std::map<std::str
   return info;
 }
 
-inline std::vector<BasisDirection> flat_and_rnm() {
-  std::vector<BasisDirection> bases{flat_direction()};
-  for (const BasisDirection& basis : rnm_set().directions) bases.push_back(basis);
-  return bases;
-}
-
 inline Surface surface_of(const Exchange& scene, std::size_t object) {
   const SceneObject& it = scene.survey.objects[object];
   const Mesh& mesh = scene.survey.mesh_of(it);
@@ -93,6 +88,18 @@ inline Surface surface_of(const Exchange& scene, std::size_t object) {
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::uint32_t>(t);
   const std::vector<Vec2>& uv = mesh.uv_layers.front().uv;
   return make_surface(mesh, all, uv, tangent_frames(mesh, uv, it.to_world), it.to_world);
+}
+
+/// What a direction of the basis gathers of a uniform sky of radiance 1, on a flat floor.
+inline const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
+
+inline GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
+  GatherOptions options;
+  options.directions = flat_and_rnm();
+  options.samples = samples;
+  options.seed = seed;
+  options.footprint = Footprint::full;
+  return options;
 }
 
 /// Gathers for one object of the scene, in the units of Blender 4.3.
