@@ -17,6 +17,7 @@ from mathutils import Vector  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from scene_ops import cycles, receivers  # noqa: E402
+from scene_ops.plain_material import empty_tree, new_diffuse  # noqa: E402
 
 
 def main(task):
@@ -47,10 +48,8 @@ def main(task):
 def make_sky():
     """White above the horizon, black below, found by the receivers' own rays."""
     world = bpy.data.worlds.new("rnmbake sky")
-    if not world.use_nodes:
-        world.use_nodes = True
-    nodes, links = world.node_tree.nodes, world.node_tree.links
-    nodes.clear()
+    tree = empty_tree(world)
+    nodes, links = tree.nodes, tree.links
     direction = nodes.new("ShaderNodeTexCoord")
     split = nodes.new("ShaderNodeSeparateXYZ")
     above = nodes.new("ShaderNodeMath")
@@ -78,7 +77,7 @@ def set_sky(world, strength):
 def place_surface(scene, task):
     """Objects that share the one mesh, black so that no light is passed on."""
     mesh = read_surface(task)
-    mesh.materials.append(black_material())
+    mesh.materials.append(new_diffuse("rnmbake black", (0, 0, 0)))
     placed = []
     for sign_x, sign_y, shift_x, shift_y in task.request["copies"]:
         ob = bpy.data.objects.new("rnmbake surface", mesh)
@@ -107,19 +106,6 @@ def read_surface(task):
         mesh.polygons.foreach_set("loop_total", array("i", [3]) * surface["triangles"])
     mesh.update(calc_edges=True)
     return mesh
-
-
-def black_material():
-    material = bpy.data.materials.new("rnmbake black")
-    if not material.use_nodes:
-        material.use_nodes = True
-    nodes = material.node_tree.nodes
-    nodes.clear()
-    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
-    diffuse.inputs["Color"].default_value = (0, 0, 0, 1)
-    output = nodes.new("ShaderNodeOutputMaterial")
-    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
-    return material
 
 
 def place_lamps(scene, request):

@@ -4,9 +4,15 @@ Such a lamp is a mesh whose emission hangs on the Geometry node's Backfacing. Th
 ten-thousandth of a unit behind. Arguments: the scene to write, the answer's path (how many there were).
 """
 import json
+import os
 import sys
 
 import bpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../blender_scripts"))
+sys.dont_write_bytecode = True
+
+from scene_ops.plain_material import new_diffuse  # noqa: E402
 
 BEHIND = 1e-4
 
@@ -14,17 +20,6 @@ BEHIND = 1e-4
 def one_sided(material):
     return material and material.use_nodes and any(
         link.from_socket.name == "Backfacing" for link in material.node_tree.links)
-
-
-def black():
-    material = bpy.data.materials.new("black")
-    material.use_nodes = True
-    nodes = material.node_tree.nodes
-    nodes.clear()
-    surface, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
-    surface.inputs["Color"].default_value = (0, 0, 0, 1)
-    material.node_tree.links.new(surface.outputs["BSDF"], output.inputs["Surface"])
-    return material
 
 
 def back_of(lamp):
@@ -35,7 +30,7 @@ def back_of(lamp):
     for vertex, normal in zip(mesh.vertices, normals):
         vertex.co -= BEHIND * normal
     mesh.materials.clear()
-    mesh.materials.append(black())
+    mesh.materials.append(new_diffuse("black", (0, 0, 0)))
     return bpy.data.objects.new(f"back of {lamp.name}", mesh)
 
 

@@ -6,6 +6,7 @@ import bpy
 from core.stopwatch import Stopwatch
 from core.task import Refusal
 from scene_ops import cycles, parts, realize
+from scene_ops.plain_material import NO_MATERIAL, make_diffuse, new_diffuse
 from scene_ops.receivers import read_floats
 
 
@@ -64,10 +65,10 @@ class NormalMapped:
     def __init__(self, slot, image, tangent_layer, correct_bump):
         self._slot = slot
         self._original = slot.material
-        self.material = slot.material.copy() if slot.material else _plain_material()
+        self.material = slot.material.copy() if slot.material else new_diffuse("rnmbake default", NO_MATERIAL)
         slot.material = self.material
-        if not self.material.use_nodes:
-            _use_own_color(self.material)
+        if not self.material.use_nodes:  # Cycles shows its colour
+            make_diffuse(self.material, self.material.diffuse_color[:3])
         if correct_bump:
             _turn_correction_off(self.material)
         self._maps = [_connect(tree, tangent_layer) for tree in _trees_with_normals(self.material.node_tree)]
@@ -93,30 +94,6 @@ def give_normal_map(ob, image, tangent_layer, correct_bump):
         material, slot.link = slot.material, "OBJECT"
         slot.material = material
     return [NormalMapped(slot, image, tangent_layer, correct_bump) for slot in ob.material_slots]
-
-
-def _plain_material():
-    material = bpy.data.materials.new("rnmbake default")
-    if not material.use_nodes:
-        material.use_nodes = True
-    nodes = material.node_tree.nodes
-    nodes.clear()
-    diffuse = nodes.new("ShaderNodeBsdfDiffuse")  # what Cycles shows where there is no material
-    diffuse.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1)
-    output = nodes.new("ShaderNodeOutputMaterial")
-    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
-    return material
-
-
-def _use_own_color(material):
-    """Give a material without nodes the tree that Cycles renders it with."""
-    color = tuple(material.diffuse_color)
-    material.use_nodes = True
-    material.node_tree.nodes.clear()
-    diffuse = material.node_tree.nodes.new("ShaderNodeBsdfDiffuse")
-    diffuse.inputs["Color"].default_value = color
-    output = material.node_tree.nodes.new("ShaderNodeOutputMaterial")
-    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
 
 
 def _turn_correction_off(material):

@@ -4,6 +4,7 @@ import bpy
 from scene_ops.describe import describe_material
 from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
+from scene_ops.plain_material import NO_MATERIAL, empty_tree, make_diffuse
 from scene_ops.see_through import glow_where_transparent, lets_light_through, surface_nodes
 
 # Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
@@ -74,21 +75,11 @@ def is_mesh_bound(node):
     return node.type in MESH_BOUND
 
 
-def new_tree(material):
-    """An empty node tree with an output; returns the nodes, the links and the output's surface socket."""
-    if not material.use_nodes:
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    return tree.nodes, tree.links, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"]
-
-
 def make_bakeable(material):
     """A copy that Cycles shades alike, and the image node in it that tells a bake where to write."""
     copy = material.copy() if material else bpy.data.materials.new("rnmbake empty slot")
     if material is None or not material.use_nodes or material.node_tree is None:
-        color = tuple(material.diffuse_color)[:3] if material else (0.8, 0.8, 0.8)  # what Cycles shows
-        make_lambert(copy, color, BLACK)
+        make_diffuse(copy, material.diffuse_color[:3] if material else NO_MATERIAL)  # what Cycles shows
     nodes = copy.node_tree.nodes
     texture = nodes.new("ShaderNodeTexImage")
     for node in nodes:
@@ -102,8 +93,9 @@ def make_lambert(material, color, emission, transmittance=BLACK):
 
     Each of the three is a colour, or an output socket's maker.
     """
-    nodes, links, surface = new_tree(material)
-    shader = nodes.new("ShaderNodeBsdfDiffuse")
+    tree = empty_tree(material)
+    nodes, links = tree.nodes, tree.links
+    output, shader = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeBsdfDiffuse")
     shader.inputs["Roughness"].default_value = 0
     _feed(nodes, links, shader.inputs["Color"], color)
     for kind, value in (("Emission", emission), ("BsdfTransparent", transmittance)):
@@ -114,7 +106,7 @@ def make_lambert(material, color, emission, transmittance=BLACK):
         links.new(shader.outputs[0], both.inputs[0])
         links.new(other.outputs[0], both.inputs[1])
         shader = both
-    links.new(shader.outputs[0], surface)
+    links.new(shader.outputs[0], output.inputs["Surface"])
 
 
 def _feed(nodes, links, socket, value):

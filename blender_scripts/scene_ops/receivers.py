@@ -8,6 +8,7 @@ from array import array
 import bpy
 
 from scene_ops import light_linking
+from scene_ops.plain_material import new_diffuse
 
 
 def read_floats(stream, count):
@@ -54,17 +55,9 @@ def _set_normals(mesh, normals):
 
 
 def make_material(image):
-    """Pure white Diffuse BSDF of roughness 0; `image` is what the bake writes to."""
-    material = bpy.data.materials.new("rnmbake receiver")
-    if not material.use_nodes:
-        material.use_nodes = True
+    """Pure white; `image` is what the bake writes to."""
+    material = new_diffuse("rnmbake receiver", (1, 1, 1))
     nodes = material.node_tree.nodes
-    nodes.clear()
-    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
-    diffuse.inputs["Color"].default_value = (1, 1, 1, 1)
-    diffuse.inputs["Roughness"].default_value = 0
-    output = nodes.new("ShaderNodeOutputMaterial")
-    material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
     texture = nodes.new("ShaderNodeTexImage")
     texture.image = image
     nodes.active = texture
