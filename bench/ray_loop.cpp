@@ -18,10 +18,6 @@ constexpr float kLift = 1.0F / 1024;  // texels that rays begin over the surface
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr std::size_t kChannels = SsbumpWeights::channels;
 
-int wrapped(int at, int size) {
-  return (at % size + size) % size;
-}
-
 void aim(RTCRay8& query, const Vec3& direction) {
   for (int lane = 0; lane < kLanes; ++lane) {
     query.dir_x[lane] = direction.x;
@@ -60,11 +56,7 @@ struct RayLoop::Square {
   }
 
   void trace_ones(RTCScene scene, const WeightedRay& ray) {
-    RTCRay query{};
-    query.dir_x = ray.direction.x;
-    query.dir_y = ray.direction.y;
-    query.dir_z = ray.direction.z;
-    query.mask = all_rays;
+    RTCRay query = embree_ray(Vec3(0), ray.direction, kFar);
     for (std::size_t i = 0; i < texels; ++i) {
       query.org_x = x[i];
       query.org_y = y[i];
@@ -80,36 +72,24 @@ struct RayLoop::Square {
 RayLoop::RayLoop(const HeightField& field, int margin) : field_(field) {
   if (field.width() % tile != 0 || field.height() % tile != 0)
     fail(ExitCode::usage, "the map's sides must be multiples of {}", int{tile});
-  device_ = rtcNewDevice(nullptr);
-  if (device_ == nullptr) fail(ExitCode::environment, "Embree does not start: mend its installation");
-  scene_ = rtcNewScene(device_);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(embree_.scene(), RTC_BUILD_QUALITY_HIGH);
   build(margin);
-  rtcCommitScene(scene_);
-}
-
-RayLoop::~RayLoop() {
-  rtcReleaseScene(scene_);
-  rtcReleaseDevice(device_);
 }
 
 /// The map's middle is the origin: single precision is best there.
 Vec3 RayLoop::origin(int x, int y) const {
   const int width = field_.width(), height = field_.height();
-  const float at = field_.heights.texel(wrapped(x, width), wrapped(y, height))[0];
+  const float at =
+      field_.heights.texel(texel_beyond(x, width, Beyond::wrap), texel_beyond(y, height, Beyond::wrap))[0];
   return {static_cast<float>(x - width / 2), static_cast<float>(height / 2 - y), at};
 }
 
 void RayLoop::build(int margin) {
   const int across = field_.width() + 2 * margin + 1, down = field_.height() + 2 * margin + 1;
-  RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), std::size_t(across) * down));
-  auto* corners = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                              2 * std::size_t(across - 1) * (down - 1)));
-  if (points == nullptr || corners == nullptr)
-    fail(ExitCode::environment, "no memory for the triangles: measure a smaller map");
+  const std::size_t triangles = 2 * std::size_t(across - 1) * (down - 1);
+  const EmbreeScene::Mesh mesh = embree_.new_mesh(std::size_t(across) * down, triangles);
+  auto* points = mesh.points;
+  auto* corners = mesh.corners;
   for (int y = 0; y < down; ++y) {
     for (int x = 0; x < across; ++x) *points++ = origin(x - margin, y - margin);
   }
@@ -119,11 +99,9 @@ void RayLoop::build(int margin) {
       for (const std::uint32_t corner : {a, b, a + 1, a + 1, b, b + 1}) *corners++ = corner;
     }
   }
-  rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_HIGH);
-  rtcSetGeometryMask(mesh, all_rays);
-  rtcCommitGeometry(mesh);
-  rtcAttachGeometry(scene_, mesh);
-  rtcReleaseGeometry(mesh);
+  rtcSetGeometryBuildQuality(mesh.geometry, RTC_BUILD_QUALITY_HIGH);
+  embree_.attach(mesh.geometry, 0);
+  embree_.build(triangles);
 }
 
 void RayLoop::trace_square(int x, int y, const HemisphereRays& rays, Packet packet,
@@ -141,7 +119,8 @@ void RayLoop::trace_square(int x, int y, const HemisphereRays& rays, Packet pack
   std::array<float, kChannels> whole{};
   for (const WeightedRay& ray : rays.set(number)) {
     for (std::size_t c = 0; c < kChannels; ++c) whole[c] += ray.weight[c];
-    packet == Packet::eight ? square.trace_eights(scene_, ray) : square.trace_ones(scene_, ray);
+    packet == Packet::eight ? square.trace_eights(embree_.scene(), ray)
+                            : square.trace_ones(embree_.scene(), ray);
   }
   for (int i = 0; i < Square::texels; ++i) {
     const auto texel = weights.image.texel(column * tile + i % tile, row * tile + i / tile);
@@ -157,19 +136,11 @@ void RayLoop::trace_row(int tile_row, const HemisphereRays& rays, Packet packet,
 }
 
 std::array<double, kChannels> RayLoop::texel(int x, int y, const std::vector<WeightedRay>& rays) const {
-  const Vec3 from = origin(x, y);
+  const Vec3 from = origin(x, y) + Vec3(0, 0, kLift);
   std::array<double, kChannels> seen{}, whole{};
   for (const WeightedRay& ray : rays) {
-    RTCRay query{};
-    query.org_x = from.x;
-    query.org_y = from.y;
-    query.org_z = from.z + kLift;
-    query.dir_x = ray.direction.x;
-    query.dir_y = ray.direction.y;
-    query.dir_z = ray.direction.z;
-    query.tfar = kFar;
-    query.mask = all_rays;
-    embree_occluded(scene_, query);
+    RTCRay query = embree_ray(from, ray.direction, kFar);
+    embree_occluded(embree_.scene(), query);
     for (std::size_t c = 0; c < kChannels; ++c) {
       whole[c] += double{ray.weight[c]};
       if (query.tfar > 0) seen[c] += double{ray.weight[c]};

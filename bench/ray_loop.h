@@ -1,7 +1,7 @@
 // bench/ray_loop.h - what a sweep has to beat: a tight loop of Embree's occlusion rays over the same heights.
 #pragma once
 
-#include "rays/embree.h"
+#include "rays/embree_scene.h"
 #include "ssbump/height_field.h"
 #include "ssbump/hemisphere_rays.h"
 #include "ssbump/weights.h"
@@ -20,9 +20,6 @@ class RayLoop {
 
   /// Two triangles for each patch, in one static mesh that goes on `margin` texels past each border.
   RayLoop(const HeightField& field, int margin);
-  ~RayLoop();
-  RayLoop(const RayLoop&) = delete;
-  RayLoop& operator=(const RayLoop&) = delete;
 
   [[nodiscard]] int tiles_across() const { return field_.width() / tile; }
   [[nodiscard]] int tile_rows() const { return field_.height() / tile; }
@@ -43,8 +40,7 @@ class RayLoop {
   [[nodiscard]] Vec3 origin(int x, int y) const;
 
   const HeightField& field_;
-  RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
+  EmbreeScene embree_;
 };
 
 }  // namespace rnmbake

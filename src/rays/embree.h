@@ -1,6 +1,8 @@
 // rays/embree.h - the little that differs between Embree 3 and 4.
 #pragma once
 
+#include "base/math.h"
+
 #if RNMBAKE_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -11,6 +13,30 @@ namespace rnmbake {
 
 inline constexpr unsigned all_rays =
     0xffffffff;  // the mask of geometries and rays: version 4's defaults differ
+
+/// In [from, to] along `direction`.
+inline RTCRay embree_ray(const Vec3& origin, const Vec3& direction, float to, float from = 0) {
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tnear = from;
+  ray.tfar = to;
+  ray.mask = all_rays;
+  return ray;
+}
+
+/// The same, which has met nothing yet.
+inline RTCRayHit embree_ray_hit(const Vec3& origin, const Vec3& direction, float to, float from = 0) {
+  RTCRayHit query;
+  query.ray = embree_ray(origin, direction, to, from);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
 
 inline void embree_intersect(RTCScene scene, RTCRayHit& query) {
 #if RNMBAKE_EMBREE_MAJOR >= 4

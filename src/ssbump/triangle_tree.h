@@ -10,6 +10,8 @@
 
 namespace rnmbake {
 
+class EmbreeScene;
+
 /// What a ray has met.
 struct TriangleHit {
   std::uint32_t triangle = 0;
@@ -32,8 +34,7 @@ class TriangleTree {
   [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, float far) const;
 
  private:
-  struct Handles;
-  std::unique_ptr<Handles> handles_;
+  std::unique_ptr<EmbreeScene> embree_;
 };
 
 }  // namespace rnmbake

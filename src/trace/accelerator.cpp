@@ -1,7 +1,5 @@
 #include "trace/accelerator.h"
 
-#include "base/error.h"
-
 #include <algorithm>
 #include <numeric>
 
@@ -10,27 +8,11 @@ namespace rnmbake {
 Accelerator::Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunctionN filter) {
   sort(triangles, looks);
   triangles.position.reserve(triangles.position.size() + 2);  // Embree reads up to 16 bytes past them
-  device_ = rtcNewDevice(nullptr);
-  if (device_ == nullptr) {
-    fail(ExitCode::environment, "Embree does not start (error {}): is this processor older than SSE2?",
-         static_cast<int>(rtcGetDeviceError(nullptr)));
-  }
-  rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, this);
-  scene_ = rtcNewScene(device_);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetDeviceMemoryMonitorFunction(embree_.device(), count_bytes, this);
+  rtcSetSceneBuildQuality(scene(), RTC_BUILD_QUALITY_MEDIUM);
   add(0, triangles, nullptr);
   add(1, triangles, filter);
-  rtcCommitScene(scene_);
-  if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
-    fail(ExitCode::environment,
-         "Embree could not build its tree over {} triangles (error {}): is there memory?", triangles.size(),
-         static_cast<int>(error));
-  }
-}
-
-Accelerator::~Accelerator() {
-  if (scene_ != nullptr) rtcReleaseScene(scene_);
-  if (device_ != nullptr) rtcReleaseDevice(device_);
+  embree_.build(triangles.size());
 }
 
 void Accelerator::sort(const Triangles& triangles, const Looks& looks) {
@@ -50,19 +32,16 @@ void Accelerator::sort(const Triangles& triangles, const Looks& looks) {
 void Accelerator::add(unsigned geometry, const Triangles& triangles, RTCFilterFunctionN filter) {
   const std::vector<std::uint32_t>& corners = corners_[geometry];
   if (corners.empty()) return;
-  RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry mesh = rtcNewGeometry(embree_.device(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.position.data(), 0,
                              sizeof(Vec3), triangles.position.size());
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
                              3 * sizeof(std::uint32_t), corners.size() / 3);
-  rtcSetGeometryMask(mesh, all_rays);
   if (filter != nullptr) {
     rtcSetGeometryIntersectFilterFunction(mesh, filter);
     rtcSetGeometryOccludedFilterFunction(mesh, filter);
   }
-  rtcCommitGeometry(mesh);
-  rtcAttachGeometryByID(scene_, mesh, geometry);
-  rtcReleaseGeometry(mesh);
+  embree_.attach(mesh, geometry);
 }
 
 bool Accelerator::count_bytes(void* self, ssize_t bytes, bool /*after*/) {

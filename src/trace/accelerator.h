@@ -1,7 +1,7 @@
 // trace/accelerator.h - Embree's tree over a scene's triangles. Private to the trace room.
 #pragma once
 
-#include "rays/embree.h"
+#include "rays/embree_scene.h"
 #include "trace/looks.h"
 #include "trace/triangles.h"
 
@@ -18,11 +18,10 @@ class Accelerator {
   /// `filter` is asked about every hit on a see-through triangle, in both kinds of query. Throws
   /// Error(environment) where Embree fails. The triangles must outlive it and keep their place.
   Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunctionN filter);
-  ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
-  [[nodiscard]] RTCScene scene() const { return scene_; }
+  [[nodiscard]] RTCScene scene() const { return embree_.scene(); }
   [[nodiscard]] bool see_through() const { return !numbers_[1].empty(); }
   /// Index into Triangles of what a query has met.
   [[nodiscard]] std::uint32_t triangle(std::uint32_t geometry, std::uint32_t primitive) const {
@@ -35,12 +34,11 @@ class Accelerator {
   void add(unsigned geometry, const Triangles& triangles, RTCFilterFunctionN filter);
   static bool count_bytes(void* self, ssize_t bytes, bool after);
 
-  RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
   // [opaque, see-through]
   std::vector<std::uint32_t> corners_[2];  // indices into Triangles::position
   std::vector<std::uint32_t> numbers_[2];  // of triangles; empty where all are opaque
   std::atomic<std::ptrdiff_t> bytes_ = 0;
+  EmbreeScene embree_;  // released first: it reads the corners, and its bytes are counted
 };
 
 }  // namespace rnmbake

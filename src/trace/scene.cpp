@@ -16,27 +16,6 @@ namespace rnmbake {
 
 namespace {
 
-RTCRay to_embree(const Ray& ray) {
-  RTCRay out{};
-  out.org_x = ray.origin.x;
-  out.org_y = ray.origin.y;
-  out.org_z = ray.origin.z;
-  out.dir_x = ray.direction.x;
-  out.dir_y = ray.direction.y;
-  out.dir_z = ray.direction.z;
-  out.tfar = ray.to;
-  out.mask = all_rays;
-  return out;
-}
-
-RTCRayHit ask_embree(const Ray& ray) {
-  RTCRayHit query;
-  query.ray = to_embree(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
 template <typename T>
 T mixed(const std::vector<T>& corners, const Hit& hit) {
   const T* c = &corners[3 * std::size_t(hit.triangle)];
@@ -110,7 +89,7 @@ TraceScene::~TraceScene() = default;
 
 bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, false});
-  RTCRayHit query = ask_embree(ray);
+  RTCRayHit query = embree_ray_hit(ray.origin, ray.direction, ray.to);
   if (accelerator_->see_through()) {
     crossings.clear();
     Journey journey{*this, &crossings, {}, {}};
@@ -133,7 +112,7 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& cros
 
 Visibility TraceScene::visibility(const Ray& ray) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
-  RTCRay query = to_embree(ray);
+  RTCRay query = embree_ray(ray.origin, ray.direction, ray.to);
   Journey journey{*this, nullptr, {}, {}};
   if (accelerator_->see_through()) {
     embree_occluded(accelerator_->scene(), query, &journey);
@@ -178,7 +157,7 @@ double TraceScene::time_bare(const RayLog& log, int threads) const {
   const auto pass = [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, log.size(), 4096), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        RTCRayHit query = ask_embree({log[i].origin, log[i].direction, log[i].to});
+        RTCRayHit query = embree_ray_hit(log[i].origin, log[i].direction, log[i].to);
         if (log[i].shadow) {
           see_through ? embree_occluded(tree, query.ray, nullptr) : embree_occluded(tree, query.ray);
         } else {
