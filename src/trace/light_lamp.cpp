@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rnmbake {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Towards `place`; distance 0 where the point lies on it.
 LightSample towards(const Vec3& point, const Vec3& place) {

@@ -1,10 +1,10 @@
 #include "trace/view.h"
 
+#include "trace/directions.h"
 #include "trace/passage.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -13,8 +13,6 @@
 
 namespace rnmbake {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// What one camera ray brings.
 struct Seen {

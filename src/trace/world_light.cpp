@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rnmbake {
 namespace {
@@ -116,7 +115,7 @@ Vec3 WorldLight::radiance(const Vec3& direction) const {
 
 LightSample WorldLight::sample(const Vec3& normal, const Vec2& u, float extra) const {
   LightSample sample = picture_ ? sample_picture(u) : sample_constant(normal, u, extra);
-  sample.distance = std::numeric_limits<float>::infinity();
+  sample.distance = infinity;
   sample.chance_hits = true;
   return sample;
 }
