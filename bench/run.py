@@ -37,7 +37,7 @@ def arguments():
     parser.add_argument("--full", action="store_true", help="dispatch: bake every object instead of extrapolating")
     parser.add_argument("--objects", type=int, nargs="+", help="dispatch: sizes of the hall (10 40 160)")
     parser.add_argument("--samples", type=int, nargs="+", help="overhead: samples (256)")
-    parser.add_argument("--scenes", nargs="+", help="tracing: only these")
+    parser.add_argument("--scenes", nargs="+", help="tracing: only these; the others' figures stay, if they are of this machine")
     parser.add_argument("--ssbump", metavar="FLAGS", help="ssbump: flags for bench_ssbump, such as '--side 256'")
     parser.add_argument("--patience", type=float, default=0, metavar="S",
                         help="wait so long for a quiet machine before each benchmark")
@@ -48,13 +48,16 @@ def arguments():
     return options
 
 
-def section(name):
+def kept(name):
     file = RESULTS / f"{name}.json"
-    module = BENCHMARKS[name]
+    return json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
+
+
+def section(name):
+    module, result = BENCHMARKS[name], kept(name)
     head = f"## {module.TITLE}\n\n`./dev bench {name}`"
-    if not file.exists():
+    if result is None:
         return f"{head}: not measured yet."
-    result = json.loads(file.read_text(encoding="utf-8"))
     return f"{head}, {result['date']}, {result['machine']}.\n\n{module.report(result['data'])}"
 
 
@@ -71,6 +74,9 @@ def main():
         measure.await_quiet(options.patience)
         data = BENCHMARKS[name].measure(options)
         result = {"date": time.strftime("%Y-%m-%d"), "machine": measure.machine(), "data": data}
+        before = kept(name)
+        if name == "tracing" and options.scenes and before and before["machine"] == result["machine"]:
+            result = tracing.renewed(before, result)
         RESULTS.mkdir(exist_ok=True)
         (RESULTS / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     write_document()

@@ -36,6 +36,12 @@ def measure(options):
     return {"rows": rows}
 
 
+def renewed(before, result):
+    """A result of some scenes, in their places among those of `before`, which each keep their date."""
+    rows = {row["scene"]: {"date": one["date"], **row} for one in (before, result) for row in one["data"]["rows"]}
+    return {**result, "data": {"rows": list(rows.values())}}
+
+
 def make(folder):
     folder.mkdir(parents=True, exist_ok=True)
     return folder
@@ -93,6 +99,14 @@ def speed_up(row):
     return cycles / ours
 
 
+def measured_on(rows):
+    """Which scenes were measured on which day; nothing where all were on the same."""
+    days = {}
+    for row in rows:
+        days.setdefault(row.get("date"), []).append(row["scene"])
+    return "" if len(days) < 2 else "\n\nMeasured on " + "; ".join(f"{day}: {', '.join(of)}" for day, of in days.items()) + "."
+
+
 def report(data):
     noise, tracer = [], []
     for row in data["rows"]:
@@ -116,4 +130,4 @@ def report(data):
             table(["scene", "triangles", "Mrays/s, 2 threads", "of bare Embree, 1 thread", "2 threads", "2 threads are faster by",
                    "MiB for a million triangles", "build s"], tracer) +
             "\n\n\"Bare Embree\" asks rtcIntersect1 and rtcOccluded1 about a million of the same rays in the same order, and nothing else. "
-            "The goal is 60 %.")
+            "The goal is 60 %." + measured_on(data["rows"]))

@@ -16,9 +16,11 @@ add_test(NAME docs.check
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_docs.py --binary $<TARGET_FILE:rnmbake>)
 set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 120)
 
-add_test(NAME bench.accuracy
-  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/bench/accuracy_check.py)
-set_tests_properties(bench.accuracy PROPERTIES LABELS unit TIMEOUT 60)
+foreach(CHECK accuracy tracing)
+  add_test(NAME bench.${CHECK}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/bench/${CHECK}_check.py)
+  set_tests_properties(bench.${CHECK} PROPERTIES LABELS unit TIMEOUT 60)
+endforeach()
 
 # Bad input through the real program and a real Blender: one test for each class of bad_input/*_check.py.
 foreach(CHECK files.Scenes files.Folders content.Content content.Names content.Scripts
