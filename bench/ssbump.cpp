@@ -156,14 +156,12 @@ json measure_sweep(const HeightField& field, const Truths& truths, GenerateOptio
 
 json measure_instructions(const HeightField& field, const GenerateOptions& options) {
   json result = json::object();
-  const SweepIsa best = best_isa();
-  for (const auto& [isa, name] :
-       {std::pair(SweepIsa::baseline, "baseline"), {SweepIsa::avx2, "avx2"}, {SweepIsa::avx512, "avx512"}}) {
-    if (isa > best) continue;
-    limit_isa(isa);
+  const std::vector<std::string> all = sweep_instructions();
+  for (const std::string& name : all) {
+    use_sweep_instructions(name);
     result[name] = best_of(kRuns, [&] { static_cast<void>(generate(field, options)); });
   }
-  limit_isa(best);
+  use_sweep_instructions(all.front());
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "ssbump/horizon_sweep.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -31,20 +32,39 @@ class Sweeps {
   void run(const HorizonGrid& grid, const std::vector<Azimuth>& azimuths, SweepTarget& target) {
     target.planes = options_.power == 1 ? SsbumpWeights::channels - 1 : SsbumpWeights::channels;
     target.clear();
-    for (const Azimuth& azimuth : azimuths) {
-      if (stop_ && stop_()) return;
-      SweepLines lines = lines_of(grid, azimuth);
-      const SweepJob job{grid, azimuth, lines, target, options_.near_rows, options_.power == 1};
-      if (grid.steps.repeats()) {
-        tbb::parallel_for(0, lines.groups(), [&](int group) { find_highest(job, group); });
-        lines.highest_of_all = *std::ranges::max_element(lines.highest);
+    const Reciprocals reciprocals(farthest_sight(grid));
+    HorizonSines sines(target);
+    SweepLines lines;
+    for (std::size_t first = 0; first < azimuths.size(); first += HorizonSines::azimuths) {
+      const std::size_t count = std::min(azimuths.size() - first, std::size_t{HorizonSines::azimuths});
+      const std::span<const Azimuth> some(&azimuths[first], count);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (stop_ && stop_()) return;
+        const auto at = static_cast<int>(i);
+        begin_lines(lines, grid, some[i]);
+        sweep({grid,
+               some[i],
+               reciprocals,
+               lines,
+               target,
+               {sines.of(target, at, 0), sines.of(target, at, 1)},
+               options_.near_rows});
+        say_();
       }
-      tbb::parallel_for(0, lines.groups(), [&](int group) { sweep_group(job, group, scratch_.local()); });
-      say_();
+      tbb::parallel_for(0, target.steps(), [&](int step) { add_seen(target, sines, some, step); });
     }
   }
 
  private:
+  void sweep(const SweepJob& job) {
+    const int groups = (job.lines.count + lines_at_once() - 1) / lines_at_once();
+    if (job.grid.steps.repeats()) {
+      tbb::parallel_for(0, groups, [&](int group) { find_outstanding(job, group, scratch_.local()); });
+      job.lines.highest_of_all = *std::ranges::max_element(job.lines.highest);
+    }
+    tbb::parallel_for(0, groups, [&](int group) { sweep_group(job, group, scratch_.local()); });
+  }
+
   const GenerateOptions& options_;
   const std::function<void()>& say_;
   const std::function<bool()>& stop_;

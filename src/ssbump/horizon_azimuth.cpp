@@ -41,65 +41,56 @@ void lay_lines(Azimuth& azimuth, const GridAxis& steps) {
 
 constexpr double least_bend = 0.01;  // of a patch's twist, by which its middle may be steeper
 
-/// Where a ray crosses the line between texels that is `row` steps away.
-NearTap row_crossing(double slope, int sign, int row, std::ptrdiff_t pitch) {
-  const double aside = row * sign * slope, line = std::floor(aside);
-  const std::ptrdiff_t at = sign * row * pitch + static_cast<std::ptrdiff_t>(line);
-  return {at, at + 1, static_cast<float>(aside - line), static_cast<float>(1.0 / row)};
-}
+/// A way from a texel's centre: so many lines aside, on its side, for each step.
+class NearWay {
+ public:
+  NearWay(double slope, int sign, std::ptrdiff_t pitch)
+      : steep_(std::abs(slope)), side_(sign * slope < 0 ? -1 : 1), forward_(sign * pitch) {}
 
-/// How far along a ray it crosses lines between texels up to `rows` steps away, in steps.
-std::vector<double> crossings(double slope, int rows) {
-  const double steep = std::abs(slope);
-  std::vector<double> ways;
-  for (int row = 1; row <= rows; ++row) ways.push_back(row);
-  for (int line = 1; line < rows * steep; ++line) {
-    const double way = line / steep;
-    if (way - std::floor(way) >= 1e-6) ways.push_back(way);  // else a texel's centre, which is there already
+  [[nodiscard]] int side() const { return side_; }
+  [[nodiscard]] float steep() const { return static_cast<float>(steep_); }
+
+  [[nodiscard]] RowCrossing crossing(int row) const {
+    const double aside = row * steep_, line = std::floor(aside);
+    return {texel(row, static_cast<int>(line)), static_cast<float>(aside - line)};
   }
-  std::ranges::sort(ways);
-  return ways;
-}
 
-/// Where a ray leaves the texel, and where it crosses the lines between texels.
-std::vector<NearTap> near_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
-  const double steep = std::abs(slope);
-  const int side = sign * slope < 0 ? -1 : 1;
-  std::vector<NearTap> taps;
-  taps.push_back(
-      {sign * pitch, side, static_cast<float>(steep / (1 + steep)), static_cast<float>(1 + steep)});
-  for (const double way : crossings(slope, rows)) {
-    const int row = static_cast<int>(std::floor(way));
-    if (way == row) {
-      taps.push_back(row_crossing(slope, sign, row, pitch));
-      continue;
+  /// From a row to the next.
+  [[nodiscard]] NearStep step(int row) const {
+    const double from = row * steep_, to = (row + 1) * steep_, line = std::floor(from);
+    NearStep step;
+    step.row = {texel(row + 1, static_cast<int>(line)), static_cast<float>(to - line)};
+    step.per_height = static_cast<float>(1.0 / (row + 1));
+    step.crosses = to >= line + 1;
+    if (!step.crosses) {
+      step.middle = middle(row, row + 1.0);
+      return step;
     }
-    const int line = side * static_cast<int>(std::lround(way * steep));
-    taps.push_back({sign * row * pitch + line, sign * (row + 1) * pitch + line, static_cast<float>(way - row),
-                    static_cast<float>(1 / way)});
+    const double way = std::min((line + 1) / steep_, row + 1.0);  // where it crosses
+    step.last = texel(row, static_cast<int>(line) + 2);
+    step.cross_part = static_cast<float>(way - row);
+    step.cross_per_height = static_cast<float>(1 / way);
+    step.row.part = static_cast<float>(to - line - 1);
+    step.middle = middle(row, way);
+    step.second_middle = middle(way, row + 1.0);
+    return step;
   }
-  return taps;
-}
 
-/// The surface is straight along the lines between texels, a parabola along rays across a patch. In the first
-/// patch the steepest way is at one of its ends.
-std::vector<PatchTap> patch_taps(double slope, int sign, int rows, std::ptrdiff_t pitch) {
-  const std::vector<double> ways = crossings(slope, rows);
-  std::vector<PatchTap> taps;
-  for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
-    const double length = ways[i + 1] - ways[i], way = (ways[i] + ways[i + 1]) / 2;
-    if (std::abs(slope) * length * length / 4 < least_bend * way) continue;
-    const double step = sign * way, line = step * slope, from_step = std::floor(step),
-                 from_line = std::floor(line);
-    const auto u = static_cast<float>(line - from_line), v = static_cast<float>(step - from_step);
-    PatchTap tap;
-    tap.at = static_cast<std::ptrdiff_t>(from_step) * pitch + static_cast<std::ptrdiff_t>(from_line);
-    tap.shares = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    tap.per_height = static_cast<float>(1 / way);
-    taps.push_back(tap);
+ private:
+  [[nodiscard]] std::ptrdiff_t texel(int row, int line) const {
+    return row * forward_ + static_cast<std::ptrdiff_t>(line) * side_;
   }
-  return taps;
-}
+  /// In the first patch the steepest way is at one of its ends.
+  [[nodiscard]] NearStep::Middle middle(double from, double to) const {
+    const double length = to - from, at = (from + to) / 2;
+    if (from == 0 || steep_ * length * length / 4 < least_bend * at) return {};
+    return {static_cast<float>(-steep_ * length * length / 4), static_cast<float>(1 / at)};
+  }
+
+  double steep_;
+  int side_;
+  std::ptrdiff_t forward_;  // in memory, for a step
+};
 
 std::vector<Azimuth> lay_azimuths(const HorizonGrid& grid, const AzimuthOptions& options) {
   const int count = (options.azimuths + 7) / 8 * 2;
@@ -110,9 +101,11 @@ std::vector<Azimuth> lay_azimuths(const HorizonGrid& grid, const AzimuthOptions&
     lay_lines(azimuth, grid.steps);
     for (const int sign : {1, -1}) {
       Azimuth::Way& way = azimuth.ways[sign > 0 ? 0 : 1];
-      way.taps = near_taps(azimuth.slope, sign, options.near_rows, grid.pitch);
-      way.patches = patch_taps(azimuth.slope, sign, options.near_rows, grid.pitch);
-      way.beyond = row_crossing(azimuth.slope, sign, options.near_rows + 1, grid.pitch);
+      const NearWay near(azimuth.slope, sign, grid.pitch);
+      way.side = near.side();
+      way.steep = near.steep();
+      for (int row = 0; row < options.near_rows; ++row) way.near.push_back(near.step(row));
+      way.beyond = near.crossing(options.near_rows + 1);
     }
   }
   return set;
@@ -140,7 +133,7 @@ void weigh(AzimuthLobes& lobes, const Vec2& direction, double angle, double powe
     AzimuthLobes::Linear& linear = lobes.linear[c];
     linear.along = static_cast<float>(along * scale / 2);
     linear.up = static_cast<float>(z * scale / 2);
-    linear.begins = along < 0 ? static_cast<float>(-along / z) : -1.0F;
+    linear.begins = along < 0 ? static_cast<float>(-along / std::hypot(along, z)) : -1.0F;
     linear.at_most = static_cast<float>(lobe_above(along, z, 1, 0) * scale);
     if (power == 1 || c == SsbumpWeights::ambient) continue;
     for (int i = 0; i <= AzimuthLobes::table_steps + 1; ++i) {

@@ -18,26 +18,35 @@ struct AzimuthLobes {
 
   struct Linear {
     float along = 0, up = 0;        // times Elevation's
-    float begins = 0, at_most = 0;  // below this slope the lobe is 0: there it counts for so much
+    float begins = 0, at_most = 0;  // below this sine the lobe is 0: there it counts for so much
   };
   std::array<Linear, SsbumpWeights::channels> linear;
   /// By the sine of the horizon, for powers other than 1: channels 0 to 3, table_steps + 2 entries each.
   std::vector<float> table;
 };
 
-/// One place of the surface about a texel: between two heights, `part` of the way from a to b; the slope to
-/// it is the height over the texel times `per_height`.
-struct NearTap {
-  std::ptrdiff_t a = 0, b = 0;  // in memory, from the texel
-  float part = 0, per_height = 0;
+/// One place of the surface: between two heights, `part` of the way from `at` to the next line on the way's
+/// side.
+struct RowCrossing {
+  std::ptrdiff_t at = 0;  // in memory, from the texel
+  float part = 0;
 };
 
-/// The middle of the way across one patch: there the surface may stand higher than where the patch begins and
-/// ends. `shares` are of the corners (step, line), (step, line + 1), (step + 1, line), (step + 1, line + 1).
-struct PatchTap {
-  std::ptrdiff_t at = 0;  // the first corner in memory, from the texel
-  std::array<float, 4> shares;
+/// A ray's way from one row of texels to the next, through one patch, or through two where it crosses a line
+/// between. Slopes are heights over the eye times `per_height`, so for one step.
+struct NearStep {
+  /// The middle of the way across one patch: there the surface may stand higher than where the patch begins
+  /// and ends. Its height is the mean of those two plus the patch's twist times `twist`.
+  struct Middle {
+    float twist = 0, per_height = 0;  // 0: need not be looked at
+  };
+  RowCrossing row;  // of the next row
   float per_height = 0;
+  Middle middle;
+  bool crosses = false;     // the rest is for those that do
+  std::ptrdiff_t last = 0;  // in this row, the second line on the way's side: the second patch's corner
+  float cross_part = 0, cross_per_height = 0;
+  Middle second_middle;
 };
 
 /// A direction and its opposite, as lines over a grid: with each step they move aside by slope <= 1.
@@ -49,9 +58,10 @@ struct Azimuth {
   std::vector<float> part;          // what rounding down took away
   float per_step = 0;               // 1 / length of a step
   struct Way {
-    std::vector<NearTap> taps;
-    std::vector<PatchTap> patches;
-    NearTap beyond;  // straight from the texel's centre, one step behind the near rows
+    int side = 1;     // the lines that the way comes near to are those after, or before (-1)
+    float steep = 0;  // |slope|
+    std::vector<NearStep> near;
+    RowCrossing beyond;  // straight from the texel's centre, one step behind the near rows
     AzimuthLobes lobes;
   };
   std::array<Way, 2> ways;  // forth and back

@@ -7,14 +7,13 @@
 namespace rnmbake {
 namespace {
 
-constexpr int block = 32;       // side of the squares that are transposed at once
-constexpr int lanes_most = 16;  // lines that are swept at once
+constexpr int block = 32;  // side of the squares that are transposed at once
 
 int steps_about(int near_rows) {
   return near_rows + 2;
 }
 int lines_about(int near_rows) {
-  return steps_about(near_rows) + lanes_most;
+  return steps_about(near_rows) + most_lines_at_once;
 }
 
 }  // namespace

@@ -44,6 +44,9 @@ struct HorizonGrid {
   [[nodiscard]] const float* at(int step, int line) const { return heights + step * pitch + line; }
 };
 
+inline constexpr int most_lines_at_once = 16;
+inline constexpr float no_height = -1e30F;  // under which nothing can stand out
+
 /// How many floats rows have to be apart: more than `least`, and so that rows do not compete for the same
 /// places of a cache.
 [[nodiscard]] constexpr std::size_t row_pitch(std::size_t least) {

@@ -3,69 +3,62 @@
 
 #include "ssbump/horizon_azimuth.h"
 #include "ssbump/horizon_grid.h"
-#include "ssbump/hull.h"
+#include "ssbump/horizon_sums.h"
+#include "ssbump/line_hull.h"
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace rnmbake {
 
-/// The texels that are wanted, and the sums that they add up to: one plane for each channel, lines side by
-/// side as in the grid.
-struct SweepTarget {
-  int first_step = 0, last_step = 0;  // the last is the first that is not wanted
-  int first_line = 0, last_line = 0;
-  int planes = 4;  // 4: power 1, straight up and ambient are the same
-  std::vector<float> sums;
-
-  [[nodiscard]] std::size_t pitch() const {
-    return row_pitch(static_cast<std::size_t>(last_line - first_line));
-  }
-  [[nodiscard]] std::size_t plane() const {
-    return pitch() * static_cast<std::size_t>(last_step - first_step);
-  }
-  void clear() { sums.assign(plane() * static_cast<std::size_t>(planes), 0.0F); }
-};
-
-/// Lines of one azimuth, told by where they start at step 0, and the highest point of each over one period.
+/// Lines of one azimuth, told by where they start at step 0. Where steps repeat, what of each line may stand
+/// out of it from anywhere outside of its one period.
 struct SweepLines {
   int first = 0, count = 0;
+  std::vector<std::vector<LinePoint>> outstanding;  // steps rise
   std::vector<float> highest;
-  std::vector<int> first_at, last_at;  // at which steps
   float highest_of_all = 0;
 
-  /// Groups of lines_at_once().
-  [[nodiscard]] int groups() const;
   [[nodiscard]] bool valid(int line) const { return line >= first && line < first + count; }
 };
-[[nodiscard]] SweepLines lines_of(const HorizonGrid& grid, const Azimuth& azimuth);
+/// Into `lines`, whose memory is used again.
+void begin_lines(SweepLines& lines, const HorizonGrid& grid, const Azimuth& azimuth);
 
 struct SweepJob {
   const HorizonGrid& grid;
   const Azimuth& azimuth;
+  const Reciprocals& reciprocals;
   SweepLines& lines;
-  SweepTarget& target;
+  const SweepTarget& target;
+  std::array<std::uint16_t*, 2> sines;  // out: of the horizons forth and back, SweepTarget's planes
   int near_rows = 8;
-  bool linear = true;  // power 1
 };
 
-/// What a thread keeps between groups.
+/// How far apart places may be that see each other.
+[[nodiscard]] int farthest_sight(const HorizonGrid& grid);
+
+/// What a thread keeps between groups of lines.
 struct SweepScratch {
-  HullStorage hull;
-  std::vector<float> slopes;  // of each step, lanes side by side
+  std::vector<float> heights;      // of lines_at_once() lines, one after the other
+  std::vector<LineHull> hulls;     // of each line
+  std::vector<LinePoint> beyond;   // of one line
+  std::vector<LinePart> parts;     // of it
+  std::vector<float> far_heights;  // behind a border, of lines_at_once() lines
 };
 
-/// Instructions that a sweep is compiled for; `best` is what this processor has.
-enum class SweepIsa : std::uint8_t { baseline, avx2, avx512 };
-[[nodiscard]] SweepIsa best_isa();
-/// For measurements: use less than the best.
-void limit_isa(SweepIsa isa);
+/// Lines that this processor's instructions sweep at once: they are one group.
 [[nodiscard]] int lines_at_once();
+/// The instructions in use, and all that could be, best first, in Highway's names.
+[[nodiscard]] std::vector<std::string> sweep_instructions();
+/// For measurements: use these of sweep_instructions(). Not while a sweep runs.
+void use_sweep_instructions(const std::string& name);
 
-/// Fills lines.highest and its places of a group; needed before any sweep where the steps repeat.
-void find_highest(const SweepJob& job, int group);
-/// Adds to the target. Groups of one azimuth touch different texels.
+/// Fills lines.outstanding and lines.highest of a group; needed before any sweep where the steps repeat.
+void find_outstanding(const SweepJob& job, int group, SweepScratch& scratch);
+/// Writes the sines of the horizons. Groups of one azimuth touch different texels, and all of them together
+/// every texel of the target.
 void sweep_group(const SweepJob& job, int group, SweepScratch& scratch);
 
 }  // namespace rnmbake
