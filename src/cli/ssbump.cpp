@@ -42,6 +42,8 @@ nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunS
   json["lowest"] = summary.heights.lowest;
   json["highest"] = summary.heights.highest;
   json["edge_threshold"] = summary.edge;
+  if (summary.azimuths > 0) json["azimuths"] = summary.azimuths;
+  if (summary.rmse >= 0) json["rmse"] = summary.rmse;
   json["scale"] = name_of(options.output.encoding.scale);
   json["handedness"] = name_of(options.output.encoding.handed);
   json["alpha"] = name_of(options.output.encoding.alpha);
@@ -69,7 +71,11 @@ int run(const SsbumpFlags& flags) {
   } else {
     log::info("{}: {} x {}, {:.1f} % of the sky is open on average", options.output.file.string(),
               summary.width, summary.height, 100 * summary.ranges.back().mean);
+    if (summary.rmse >= 0) log::info("{} azimuths, RMS error about {:.2g}", summary.azimuths, summary.rmse);
   }
+  if (summary.rmse > options.generate.error)
+    log::warn("{}: RMS error about {:.2g} with {} azimuths, which is the most that are tried",
+              options.output.file.string(), summary.rmse, summary.azimuths);
   return static_cast<int>(ExitCode::ok);
 }
 

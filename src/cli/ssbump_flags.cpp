@@ -109,9 +109,18 @@ void SsbumpFlags::add_method_flags(CLI::App& command) {
                   "cone: open share of a 120-degree cone about each axis; blender: baked by Cycles [horizon]")
       ->check(one_of({"horizon", "trace", "cone", "blender"}))
       ->type_name("horizon|trace|cone|blender");
-  command.add_option("--azimuths", run_.generate.azimuths, "of the horizon [64]")
-      ->check(CLI::Range(4, 1024).description(""))
-      ->type_name("N");
+  auto* azimuths =
+      command.add_option("--azimuths", run_.generate.azimuths, "of the horizon [as --error asks]")
+          ->check(CLI::Range(4, 1024).description(""))
+          ->type_name("N");
+  command
+      .add_option(
+          "--error", run_.generate.error,
+          "of the horizon's weights, RMS (and ten times that anywhere): azimuths are doubled from 64 to "
+          "at most 512 until two halves of them agree [0.001]")
+      ->check(CLI::Range(1e-5, 1.0).description(""))
+      ->excludes(azimuths)
+      ->type_name("E");
   command.add_option("-r,--rays", run_.generate.rays, "for each texel, with trace and cone [250]")
       ->check(CLI::Range(1, 1 << 20).description(""))
       ->type_name("N");

@@ -110,7 +110,11 @@ class Run {
     if (!albedo_.empty()) generate.albedo_map = &albedo_;
     generate_rows(
         field_, generate,
-        [&](int first_row, const SsbumpWeights& rows) { write_weights(first_row, rows.image); },
+        [&](int first_row, const SsbumpWeights& rows) {
+          summary_.azimuths = std::max(summary_.azimuths, rows.azimuths);
+          summary_.rmse = std::max(summary_.rmse, rows.rmse);
+          write_weights(first_row, rows.image);
+        },
         [&](double share) { progress_.update(kFilteredUntil + share * (1 - kFilteredUntil), "generating"); },
         [] { return StopRequest::requested(); });
   }
@@ -129,9 +133,12 @@ class Run {
     metadata.method = options_.baked ? "blender" : name_of(generate.method);
     metadata.settings = fmt::format("height {:g} texels", summary_.heights.texels);
     if (options_.filter_radius > 0) metadata.settings += fmt::format(", filter {}", options_.filter_radius);
-    metadata.settings += generate.method == SsbumpMethod::horizon && !options_.baked
-                             ? fmt::format(", azimuths {}", generate.azimuths)
-                             : fmt::format(", rays {}", generate.rays);
+    if (generate.method != SsbumpMethod::horizon || options_.baked)
+      metadata.settings += fmt::format(", rays {}", generate.rays);
+    else if (generate.azimuths > 0)
+      metadata.settings += fmt::format(", azimuths {}", generate.azimuths);
+    else
+      metadata.settings += fmt::format(", error {:g}", generate.error);
     if (generate.bounces > 0) metadata.settings += fmt::format(", bounces {}", generate.bounces);
     return metadata;
   }

@@ -33,6 +33,8 @@ struct SsbumpRunSummary {
   ReadHeights heights;  // without the field's texels
   int width = 0, height = 0;
   double edge = 0;                                      // that the filter used, in the file's values
+  int azimuths = 0;                                     // of the horizon; 0: another method
+  double rmse = -1;                                     // as estimated where they were chosen; else below 0
   std::vector<WeightRange> ranges;                      // right, upper left, lower left, up, ambient
   std::vector<std::pair<std::string, double>> seconds;  // of read, filter, generate (with encoding), in order
 };

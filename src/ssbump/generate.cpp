@@ -25,8 +25,9 @@ void check(const HeightField& field, const GenerateOptions& options) {
   if (!std::ranges::all_of(field.heights.data(), [](float h) { return std::abs(h) < 1e9F; }))
     fail(ExitCode::invalid_input,
          "the height map has values that are not finite (or past 1e9 texels): mend them first");
-  if (options.azimuths < 1 || options.near_rows < 1 || options.rays < 1)
-    fail(ExitCode::usage, "azimuths, near rows and rays must be at least 1");
+  if (options.azimuths < 0 || options.near_rows < 0 || options.rays < 1)
+    fail(ExitCode::usage, "azimuths and near rows must be at least 0, rays at least 1");
+  if (!(options.error > 0)) fail(ExitCode::usage, "the error must be above 0");
   const FloatImage* albedo = options.albedo_map;
   if (albedo != nullptr && (albedo->width() != field.width() || albedo->height() != field.height()))
     fail(ExitCode::invalid_input,
@@ -47,7 +48,7 @@ SsbumpWeights some_rows(const HeightField& field, const GenerateOptions& options
 
 /// How many rows at once keep within the memory.
 int rows_at_once(const HeightField& field, const GenerateOptions& options) {
-  const std::size_t fixed = field.heights.texels() * sizeof(float);  // the map transposed
+  const std::size_t fixed = 2 * field.heights.texels() * sizeof(float);  // along both axes
   const std::size_t left = options.memory > fixed ? options.memory - fixed : 0;
   const std::size_t row = horizon_bytes_per_texel * static_cast<std::size_t>(field.width());
   const std::size_t fit = std::max(left / row, std::size_t{least_rows});

@@ -18,12 +18,14 @@ enum class SsbumpMethod : std::uint8_t { horizon, trace, cone };
 
 struct GenerateOptions {
   SsbumpMethod method = SsbumpMethod::horizon;
-  int azimuths = 64;    // horizon: directions in the plane, rounded up to a multiple of 8
-  int near_rows = 8;    // horizon: rows about a texel where its surface is taken without any rounding
-  int rays = 250;       // trace, cone: for each texel
-  double power = 1;     // of max(0, D . axis)
-  int bounces = 0;      // light that other texels send back: how many reflections; by rays in any method
-  float albedo = 0.5F;  // of the surface, where `albedo_map` is null
+  int azimuths = 0;   // horizon: directions in the plane; 0: 64 or as many (to 512) as `error` asks for
+  int near_rows = 0;  // horizon: rows about a texel where its surface is taken exactly; 0: 8, later 16
+  double error =
+      1e-3;          // horizon: RMSE over all texels and channels that is asked for, and 10 times it anywhere
+  int rays = 250;    // trace, cone: for each texel
+  double power = 1;  // of max(0, D . axis)
+  int bounces = 0;   // light that other texels send back: how many reflections; by rays in any method
+  float albedo = 0.5F;                        // of the surface, where `albedo_map` is null
   const FloatImage* albedo_map = nullptr;     // first channel, of the height field's size
   std::uint64_t seed = 0;                     // of the rays
   int threads = 0;                            // 0: all cores

@@ -10,11 +10,12 @@
 namespace rnmbake {
 namespace {
 
-/// The plane's directions in tangent space of one azimuth's two ways, and the angle that it stands for.
+/// The plane's directions in tangent space of one azimuth's two ways, the angle from the rows, and the angle
+/// that it stands for.
 struct Spoke {
   Azimuth* azimuth;
   std::array<Vec2, 2> directions;
-  double angle;
+  double at = 0, angle = 0;
 };
 
 int rounded_shift(double slope, int period) {
@@ -92,34 +93,40 @@ class NearWay {
   std::ptrdiff_t forward_;  // in memory, for a step
 };
 
-std::vector<Azimuth> lay_azimuths(const HorizonGrid& grid, const AzimuthOptions& options) {
-  const int count = (options.azimuths + 7) / 8 * 2;
-  std::vector<Azimuth> set(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    Azimuth& azimuth = set[static_cast<std::size_t>(i)];
-    azimuth.slope = std::tan(pi / 2 * ((i + 0.5) / count - 0.5));
-    lay_lines(azimuth, grid.steps);
-    for (const int sign : {1, -1}) {
-      Azimuth::Way& way = azimuth.ways[sign > 0 ? 0 : 1];
-      const NearWay near(azimuth.slope, sign, grid.pitch);
-      way.side = near.side();
-      way.steep = near.steep();
-      for (int row = 0; row < options.near_rows; ++row) way.near.push_back(near.step(row));
-      way.beyond = near.crossing(options.near_rows + 1);
-    }
+Azimuth make_azimuth(const HorizonGrid& grid, double slope, int near_rows) {
+  Azimuth azimuth;
+  azimuth.slope = slope;
+  lay_lines(azimuth, grid.steps);
+  for (const int sign : {1, -1}) {
+    Azimuth::Way& way = azimuth.ways[sign > 0 ? 0 : 1];
+    const NearWay near(azimuth.slope, sign, grid.pitch);
+    way.side = near.side();
+    way.steep = near.steep();
+    for (int row = 0; row < near_rows; ++row) way.near.push_back(near.step(row));
+    way.beyond = near.crossing(near_rows + 1);
   }
-  return set;
+  return azimuth;
 }
 
-void add_spokes(std::vector<Spoke>& spokes, std::vector<Azimuth>& set, bool transposed) {
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const double slope = set[i].slope, angle = std::atan(slope);
-    const double before = i > 0 ? (std::atan(set[i - 1].slope) + angle) / 2 : -pi / 4;
-    const double after = i + 1 < set.size() ? (std::atan(set[i + 1].slope) + angle) / 2 : pi / 4;
-    const double length = std::sqrt(1 + slope * slope);
-    const Vec2 forth = transposed ? Vec2(float(1 / length), float(-slope / length))
-                                  : Vec2(float(slope / length), float(-1 / length));
-    spokes.push_back({&set[i], {forth, -forth}, after - before});
+/// By columns the first way leads along the row (x rises), by rows up the picture's rows (y falls).
+void add_spokes(std::vector<Spoke>& spokes, std::vector<Azimuth>& set, bool by_columns) {
+  for (Azimuth& azimuth : set) {
+    const double slope = azimuth.slope, length = std::sqrt(1 + slope * slope);
+    const double right = by_columns ? 1 / length : slope / length, up = (by_columns ? -slope : -1) / length;
+    const Vec2 forth(static_cast<float>(right), static_cast<float>(up));
+    double at = std::atan2(up, right);
+    if (at < 0) at += pi;
+    spokes.push_back({&azimuth, {forth, -forth}, at >= pi ? at - pi : at});
+  }
+}
+
+void share_angles(std::vector<Spoke>& spokes) {
+  std::ranges::sort(spokes, {}, &Spoke::at);
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const Spoke &before = spokes[i > 0 ? i - 1 : spokes.size() - 1], &after = spokes[(i + 1) % spokes.size()];
+    const double from = i > 0 ? before.at : before.at - pi,
+                 to = i + 1 < spokes.size() ? after.at : after.at + pi;
+    spokes[i].angle = (to - from) / 2;
   }
 }
 
@@ -147,10 +154,19 @@ void weigh(AzimuthLobes& lobes, const Vec2& direction, double angle, double powe
 
 AzimuthSets make_azimuths(const HorizonGrid& by_rows, const HorizonGrid& by_columns,
                           const AzimuthOptions& options) {
-  AzimuthSets sets{lay_azimuths(by_rows, options), lay_azimuths(by_columns, options)};
+  AzimuthSets sets;
+  const int count = (options.azimuths + 1) / 2;
+  for (int i = 0; i < count; ++i) {
+    const double angle = pi * (i + options.offset) / count, right = std::cos(angle), up = std::sin(angle);
+    if (std::abs(up) >= std::abs(right))  // rows are counted down the picture
+      sets.by_rows.push_back(make_azimuth(by_rows, -right / up, options.near_rows));
+    else
+      sets.by_columns.push_back(make_azimuth(by_columns, -up / right, options.near_rows));
+  }
   std::vector<Spoke> spokes;
   add_spokes(spokes, sets.by_rows, false);
   add_spokes(spokes, sets.by_columns, true);
+  share_angles(spokes);
 
   std::array<double, SsbumpWeights::channels> whole{};
   const auto lobes = ssbump_lobes(options.power);

@@ -67,8 +67,12 @@ struct Azimuth {
   std::array<Way, 2> ways;  // forth and back
 };
 
+/// Directions evenly around the plane, each with its opposite: the first is `offset` (0 to 1) of the distance
+/// of two from the one along a row.
 struct AzimuthOptions {
-  int azimuths = 64, near_rows = 8;
+  int azimuths = 64;  // rounded up to an even number
+  double offset = 0.5;
+  int near_rows = 8;
   double power = 1;
 };
 
@@ -77,10 +81,10 @@ struct AzimuthOptions {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-/// All azimuths of both grids (steps along rows and along columns), each with its opposite. Slopes are whole
-/// numbers of lines for one period, an even number where it can be: then lines run into themselves behind a
-/// border, and a tile moved by half its size has the same ones. Each azimuth counts for the angles that are
-/// nearer to it than to the next.
+/// The azimuths of both grids (steps along rows and along columns): of each direction the grid over which it
+/// moves aside by at most a line for each step. Slopes are whole numbers of lines for one period, an even
+/// number where it can be: then lines run into themselves behind a border, and a tile moved by half its size
+/// has the same ones. Each azimuth counts for the angles that are nearer to it than to the next.
 struct AzimuthSets {
   std::vector<Azimuth> by_rows, by_columns;
 };

@@ -2,29 +2,14 @@
 
 #include <array>
 
-#ifndef RNMBAKE_SSBUMP_HORIZON_SUMS_ROW
-#define RNMBAKE_SSBUMP_HORIZON_SUMS_ROW  // once for all sets of instructions
-namespace rnmbake {
-namespace {
-
-/// A plane's lines of one step, and the sines of the same texels.
-struct Row {
-  float* sums;
-  std::size_t plane;
-  const std::uint16_t* sines;
-  std::size_t length;
-};
-
-}  // namespace
-}  // namespace rnmbake
-#endif
-
+// What follows is compiled for each set of instructions; the order matters.
+// clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ssbump/horizon_sums.cpp"
-#include "ssbump/elevation-inl.h"
+#include <hwy/foreach_target.h>
 
-#include <hwy/foreach_target.h>  // what follows is compiled for each set of instructions
-#include <hwy/highway.h>
+#include "ssbump/elevation-inl.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace rnmbake::HWY_NAMESPACE {
@@ -63,38 +48,41 @@ HWY_INLINE V tabled(const float* table, V sine) {
   return hn::MulAdd(part, hn::Sub(high, low), low);
 }
 
-void add_linear_here(const Row& row, std::span<const Azimuth> azimuths) {
-  for (std::size_t i = 0; i < row.length; i += hn::Lanes(d)) {
+void add_linear_here(SweepTarget& target, const HorizonSines& all, std::span<const Azimuth> azimuths,
+                     int step) {
+  const std::size_t plane = target.plane(), row = static_cast<std::size_t>(step) * target.pitch();
+  for (std::size_t i = row; i < row + target.pitch(); i += hn::Lanes(d)) {
     std::array<V, 4> sums;
-    for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = hn::LoadU(d, row.sums + c * row.plane + i);
-    const std::uint16_t* sines = row.sines + i;
+    for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = hn::LoadU(d, &target.sums[c * plane + i]);
+    const std::uint16_t* sines = &all.values[i];
     for (const Azimuth& azimuth : azimuths) {
       for (const Azimuth::Way& way : azimuth.ways) {
         add_linear(sums, way.lobes, sines_at(sines));
-        sines += row.plane;
+        sines += plane;
       }
     }
-    for (std::size_t c = 0; c < sums.size(); ++c) hn::StoreU(sums[c], d, row.sums + c * row.plane + i);
+    for (std::size_t c = 0; c < sums.size(); ++c) hn::StoreU(sums[c], d, &target.sums[c * plane + i]);
   }
 }
 
-void add_tabled_here(const Row& row, std::span<const Azimuth> azimuths) {
+void add_tabled_here(SweepTarget& target, const HorizonSines& all, std::span<const Azimuth> azimuths,
+                     int step) {
   constexpr std::size_t entries = AzimuthLobes::table_steps + 2;
+  const std::size_t plane = target.plane(), row = static_cast<std::size_t>(step) * target.pitch();
   for (std::size_t c = 0; c < SsbumpWeights::channels; ++c) {
-    for (std::size_t i = 0; i < row.length; i += hn::Lanes(d)) {
-      float* const at = row.sums + c * row.plane + i;
-      V sum = hn::LoadU(d, at);
-      const std::uint16_t* sines = row.sines + i;
+    for (std::size_t i = row; i < row + target.pitch(); i += hn::Lanes(d)) {
+      V sum = hn::LoadU(d, &target.sums[c * plane + i]);
+      const std::uint16_t* sines = &all.values[i];
       for (const Azimuth& azimuth : azimuths) {
         for (const Azimuth::Way& way : azimuth.ways) {
           const V sine = sines_at(sines);
           sum = hn::Add(sum, c == SsbumpWeights::ambient
                                  ? hn::Mul(look_above(d, sine).up, hn::Set(d, way.lobes.linear[c].up))
                                  : tabled(way.lobes.table.data() + c * entries, sine));
-          sines += row.plane;
+          sines += plane;
         }
       }
-      hn::StoreU(sum, d, at);
+      hn::StoreU(sum, d, &target.sums[c * plane + i]);
     }
   }
 }
@@ -112,13 +100,11 @@ HWY_EXPORT(add_tabled_here);
 
 }  // namespace
 
-void add_seen(SweepTarget& target, HorizonSines& sines, std::span<const Azimuth> azimuths, int step) {
-  const std::size_t at = static_cast<std::size_t>(step) * target.pitch();
-  const Row row{target.sums.data() + at, target.plane(), sines.of(target, 0, 0) + at, target.pitch()};
+void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step) {
   if (target.planes == SsbumpWeights::channels)
-    HWY_DYNAMIC_DISPATCH(add_tabled_here)(row, azimuths);
+    HWY_DYNAMIC_DISPATCH(add_tabled_here)(target, sines, azimuths, step);
   else
-    HWY_DYNAMIC_DISPATCH(add_linear_here)(row, azimuths);
+    HWY_DYNAMIC_DISPATCH(add_linear_here)(target, sines, azimuths, step);
 }
 
 }  // namespace rnmbake

@@ -43,6 +43,6 @@ struct HorizonSines {
 };
 
 /// Adds up what a step's texels see over the horizons of these azimuths. `step`: of the target.
-void add_seen(SweepTarget& target, HorizonSines& sines, std::span<const Azimuth> azimuths, int step);
+void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step);
 
 }  // namespace rnmbake

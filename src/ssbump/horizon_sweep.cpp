@@ -4,15 +4,17 @@
 #include <array>
 #include <cmath>
 
+// What follows is compiled for each set of instructions; the order matters.
+// clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ssbump/horizon_sweep.cpp"
+#include <hwy/foreach_target.h>
+
 #include "ssbump/elevation-inl.h"
 #include "ssbump/horizon_near-inl.h"
 #include "ssbump/line_hull-inl.h"
 #include "ssbump/line_tiles-inl.h"
-
-#include <hwy/foreach_target.h>  // what follows is compiled for each set of instructions
-#include <hwy/highway.h>
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace rnmbake::HWY_NAMESPACE {
@@ -173,9 +175,9 @@ class GroupSweep {
   }
   /// Until the lines have left the map sidewards, or nothing can rise any more.
   [[nodiscard]] int farthest_going_on() const {
-    const double aside = grid_.lines.size / std::max(1e-6, std::abs(azimuth_.slope));
-    return std::min(job_.reciprocals.farthest() - 2 * period_ - every_step - 4 * pad(),
-                    static_cast<int>(aside) + 1);
+    const double aside = grid_.lines.size / std::max(1e-6, std::abs(azimuth_.slope)) + 1;
+    const int sight = job_.reciprocals.farthest() - 2 * period_ - every_step - 4 * pad();
+    return static_cast<int>(std::min(aside, double(sight)));
   }
   template <int Sign>
   void push_places(const Places& places) {

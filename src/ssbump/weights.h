@@ -14,6 +14,8 @@ namespace rnmbake {
 struct SsbumpWeights {
   static constexpr int channels = 5, up = 3, ambient = 4;
   FloatImage image;
+  int azimuths = 0;  // that the horizon was swept in; 0: another method
+  double rmse = -1;  // as estimated; below 0: not known
 };
 
 }  // namespace rnmbake
