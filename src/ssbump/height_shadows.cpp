@@ -28,6 +28,11 @@ class Axis {
   [[nodiscard]] double part(double distance) const {
     return std::clamp(start_ - cell_ + speed_ * distance, 0.0, 1.0);
   }
+  /// Whether from this cell to the walk's end heights do not change by what this axis does.
+  [[nodiscard]] bool is_over(int size, Beyond beyond) const {
+    if (speed_ == 0) return true;
+    return beyond == Beyond::none && (speed_ > 0 ? cell_ >= size - 1 : cell_ < 0);
+  }
   void step() {
     cell_ += speed_ < 0 ? -1 : 1;
     lines_ += 1;
@@ -98,13 +103,20 @@ double HeightRays::steepest(int x, int y, const Vec2& azimuth, double floor, Unt
   const double start = height_at(field_, x, y);
   Axis along_x(x, azimuth.x), along_y(y, -azimuth.y);  // rows run down
   double best = floor, from = 0;
+  int repeating = 0;  // lines of one axis, since the other is over
   while (from * best <= highest_ - start) {
     const double to = std::min(along_x.next_line(), along_y.next_line());
     if (to > from)
       best = std::max(best, over_patch(field_, along_x, along_y, from, start).steepest(from, to));
     if (until == Until::first_above && best > floor) break;
-    Axis& crossed = along_x.next_line() <= along_y.next_line() ? along_x : along_y;
-    crossed.step();
+    const bool x_is_over = along_x.is_over(field_.width(), field_.x);
+    const bool y_is_over = along_y.is_over(field_.height(), field_.y);
+    if (x_is_over && y_is_over) break;
+    const bool crosses_x = along_x.next_line() <= along_y.next_line();
+    (crosses_x ? along_x : along_y).step();
+    if (crosses_x ? y_is_over : x_is_over) {  // what is left repeats itself, farther away
+      if (++repeating > 2 * (crosses_x ? field_.width() : field_.height())) break;
+    }
     from = to;
   }
   return best;

@@ -101,6 +101,21 @@ TEST(HeightShadows, BeyondTheBorder) {
   EXPECT_EQ(HeightRays(field).horizon_slope(13, 2, right, kFloor), kFloor);
 }
 
+TEST(HeightShadows, BeyondTheLastBorderTheWayEnds) {
+  HeightField field = field_of(3, 2, [](int x, int) { return x == 1 ? 1e9F : 0.0F; });
+  field.x = field.y = Beyond::none;
+  const HeightRays rays(field);
+  const double floor = 1e-9;  // 1e18 texels until the ray is above the highest
+  for (const Vec2& outward : {Vec2(-1, 0), Vec2(-0.8F, 0.6F), Vec2(-0.6F, -0.8F)})
+    EXPECT_EQ(rays.horizon_slope(0, 0, outward, floor), floor);
+  EXPECT_EQ(rays.horizon_slope(0, 0, {1, 0}, floor), 1e9);
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror}) {
+    field.y = beyond;
+    for (const Vec2& along : {Vec2(0, 1), Vec2(-0.6F, -0.8F)})
+      EXPECT_EQ(rays.horizon_slope(0, 0, along, floor), floor);
+  }
+}
+
 TEST(HeightShadows, FlatAndTiltedGroundSeesEveryLightAboveIt) {
   const HeightField flat = field_of(8, 8, [](int, int) { return 3; });
   for (const FloatImage image = height_shadows(flat, light_from(12, 0.5)); const float value : image.data())
