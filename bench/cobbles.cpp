@@ -30,14 +30,6 @@ double noise(double x, double y, int cells, std::uint32_t salt) {
   return std::lerp(std::lerp(at(0, 0), at(1, 0), u), std::lerp(at(0, 1), at(1, 1), u), v);
 }
 
-double fractal(int x, int y, int side) {
-  double sum = 0, size = 0.5;
-  for (int octave = 0, pitch = kStone; octave < kOctaves; ++octave, pitch /= 2, size /= 2)
-    sum +=
-        size * noise(double(x) / pitch, double(y) / pitch, side / pitch, static_cast<std::uint32_t>(octave));
-  return sum;
-}
-
 /// A stone about every point of a grid that is shaken: high in the middle, steep where the next one begins.
 double stones(int x, int y, int side) {
   const int cells = side / kStone, column = x / kStone, row = y / kStone;
@@ -57,12 +49,20 @@ double stones(int x, int y, int side) {
 
 }  // namespace
 
+double fractal_noise(int x, int y, int side) {
+  double sum = 0, size = 0.5;
+  for (int octave = 0, pitch = kStone; octave < kOctaves; ++octave, pitch /= 2, size /= 2)
+    sum +=
+        size * noise(double(x) / pitch, double(y) / pitch, side / pitch, static_cast<std::uint32_t>(octave));
+  return sum;
+}
+
 HeightField cobbles(int side, float range) {
   HeightField field{FloatImage(side, side, 1)};
   tbb::parallel_for(0, side, [&](int y) {
     for (int x = 0; x < side; ++x)
       field.heights.texel(x, y)[0] =
-          static_cast<float>(stones(x, y, side) + kRoughness * fractal(x, y, side));
+          static_cast<float>(stones(x, y, side) + kRoughness * fractal_noise(x, y, side));
   });
   std::vector<float>& heights = field.heights.data();
   const auto [low, high] = std::ranges::minmax(heights);

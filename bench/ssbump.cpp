@@ -5,27 +5,22 @@
 #include "base/clock.h"
 #include "cobbles.h"
 #include "ray_loop.h"
+#include "sampled_weights.h"
 #include "ssbump/bilateral.h"
 #include "ssbump/generate.h"
-#include "ssbump/height_fields.h"
 #include "ssbump/horizon_sweep.h"
-#include "ssbump/trace_heights.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 namespace rnmbake {
@@ -38,6 +33,7 @@ constexpr float kRange = 32, kEdgeShare = 0.03F;  // heights; of them, as in the
 constexpr int kMargin = 256;                      // past which rays of the loop meet nothing
 constexpr int kPart = 16;                         // of the loop's rows are traced to choose how to go on
 constexpr std::uint64_t kSeedOfLoop = 1, kSeedOfTruth = 2;
+constexpr int kAzimuthsOfTruth = 2048;
 
 struct Arguments {
   int side = 1024, threads = 2, rays = 256, samples = 200, truth_rays = 65536;
@@ -71,62 +67,10 @@ Time best_of(int runs, const std::function<void()>& work, double enough = 4) {
   return best;
 }
 
-struct Texel {
-  int x = 0, y = 0;
-};
-
-/// Spread evenly over the map (Roberts' R2 sequence).
-std::vector<Texel> samples_of(int side, int count) {
-  std::vector<Texel> samples;
-  for (int i = 1; i <= count; ++i) {
-    const auto at = [&](double step) { return static_cast<int>(std::fmod(i * step, 1) * side); };
-    samples.push_back({at(0.7548776662466927), at(0.5698402909980532)});
-  }
-  return samples;
-}
-
-/// A number for each sample, in parallel.
-std::vector<Channels> for_each(const std::vector<Texel>& samples,
-                               const std::function<Channels(Texel)>& weights) {
-  std::vector<Channels> all(samples.size());
-  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) { all[i] = weights(samples[i]); });
-  return all;
-}
-
 /// Over the three axes and straight up; ambient occlusion is the latter again.
 json errors(const std::vector<Channels>& found, const std::vector<Channels>& truth) {
-  double squares = 0, largest = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (std::size_t c = 0; c < SsbumpWeights::ambient; ++c) {
-      const double error = std::abs(found[i][c] - truth[i][c]);
-      squares += error * error;
-      largest = std::max(largest, error);
-    }
-  }
-  return {{"rmse", std::sqrt(squares / double(found.size() * SsbumpWeights::ambient))}, {"max", largest}};
-}
-
-/// By rays into the bilinear surface.
-Channels traced(const HeightTracer& tracer, Texel texel, const std::vector<WeightedRay>& rays) {
-  const HeightPlace from = tracer.centre(texel.x, texel.y);
-  Channels seen{}, whole{};
-  for (const WeightedRay& ray : rays) {
-    const bool open = !tracer.next(from, Vec3d(ray.direction));
-    for (std::size_t c = 0; c < whole.size(); ++c) {
-      whole[c] += double{ray.weight[c]};
-      if (open) seen[c] += double{ray.weight[c]};
-    }
-  }
-  for (std::size_t c = 0; c < whole.size(); ++c) seen[c] /= whole[c];
-  return seen;
-}
-
-std::vector<Channels> picked(const SsbumpWeights& weights, const std::vector<Texel>& samples) {
-  return for_each(samples, [&](Texel texel) {
-    Channels found;
-    std::ranges::copy(weights.image.texel(texel.x, texel.y), found.begin());
-    return found;
-  });
+  const WeightErrors all = errors_of(found, truth, SsbumpWeights::ambient);
+  return {{"rmse", all.rmse}, {"max", all.largest}};
 }
 
 struct Truths {
@@ -135,14 +79,9 @@ struct Truths {
 };
 
 Truths truths_of(const HeightField& field, const Arguments& arguments) {
-  Truths truths{samples_of(arguments.side, arguments.samples), {}, {}};
-  const HeightTracer tracer(field);
+  const std::vector<Texel> samples = spread_texels(arguments.side, arguments.side, arguments.samples);
   const HemisphereRays rays(arguments.truth_rays, 1, kSeedOfTruth);
-  truths.by_rays = for_each(truths.samples, [&](Texel texel) { return traced(tracer, texel, rays.set(0)); });
-  const HeightRays surface(field);
-  truths.by_horizons =
-      for_each(truths.samples, [&](Texel texel) { return exact_weights(surface, texel.x, texel.y, 1); });
-  return truths;
+  return {samples, by_rays(field, samples, rays.set(0)), by_horizons(field, samples, kAzimuthsOfTruth)};
 }
 
 json measure_sweep(const HeightField& field, const Truths& truths, GenerateOptions options) {
