@@ -24,7 +24,7 @@ def against(value, bound, digits):
 
 
 def power_of_ten(value, bound):
-    text = "0" if value < 1e-7 else f"{value:.0e}".replace("e-0", "e-")
+    text = "0" if value < 1e-7 else f"{value:.1e}".replace("e-0", "e-")
     return f"**{text}**" if value > bound else text
 
 
@@ -91,8 +91,8 @@ class Figures:
         if not rows:
             return ""
         lines = [[row["map"], *self.largest(row, SEAM)] for row in rows]
-        return ("Maps moved by half their size along both axes, and their weights moved back: the largest difference of "
-                "any texel; 1e-5 is asked for:\n\n" + table(["map (wrapped, x1)", *map(titled, self.settings)], lines))
+        return ("Largest difference of a texel's weights after the map was moved by half its size along both axes; "
+                "1e-5 is asked for:\n\n" + table(["map (wrapped, x1)", *map(titled, self.settings)], lines))
 
     def held(self):
         """In how many rows each setting is as exact as asked for."""
