@@ -11,7 +11,6 @@
 #include "pipeline/ssbump_run.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -50,26 +49,26 @@ const char* ending_of(const std::string& picture) {
   return ".tga";
 }
 
-/// Flags as a user types them; those that name files or start other programs are not for here.
+/// Flags as a user types them. Whatever file they name, ours stands in for it; Blender is not started.
 SsbumpRunOptions parsed(std::vector<std::string> words, const std::filesystem::path& folder,
                         const std::filesystem::path& picture) {
   std::erase_if(words, [](const std::string& word) {
-    constexpr std::array kept_out{"-o",   "-n",   "-D",   "--o",  "--n",  "--du",
-                                  "--al", "--fr", "--on", "--bl", "--me", "--th"};
-    return std::ranges::any_of(kept_out, [&](const char* start) { return word.starts_with(start); }) ||
-           !word.starts_with("-");
+    return !word.starts_with("-") || word.starts_with("-o") || word.starts_with("--output");
   });
   CLI::App app;
   SsbumpFlags flags(app);
   words.push_back("--output=" + (folder / "out.exr").string());
-  words.push_back("--threads=1");
   std::ranges::reverse(words);  // as CLI11 wants them
   app.parse(words);
   flags.input = picture;
   SsbumpRunOptions options = flags.options();
   options.baked = nullptr;
+  if (!options.normal.empty()) options.normal = folder / "normals.exr";
+  if (!options.dump_height.empty()) options.dump_height = folder / "heights.exr";
+  if (!options.albedo.empty()) options.albedo = picture;
+  options.generate.threads = 1;
   options.generate.rays = std::min(options.generate.rays, 4);
-  options.generate.azimuths = std::min(options.generate.azimuths, 16);
+  options.generate.azimuths = std::clamp(options.generate.azimuths, 4, 16);
   options.generate.bounces = std::min(options.generate.bounces, 1);
   return options;
 }
