@@ -18,8 +18,9 @@ enum class SsbumpMethod : std::uint8_t { horizon, trace, cone };
 
 struct GenerateOptions {
   SsbumpMethod method = SsbumpMethod::horizon;
-  int azimuths = 0;   // horizon: directions in the plane; 0: 64 or as many (to 512) as `error` asks for
-  int near_rows = 0;  // horizon: rows about a texel where its surface is taken exactly; 0: 8, later 16
+  int azimuths = 0;  // horizon: directions in the plane; 0: 64 or as many (to 512) as `error` asks for
+  int near_rows =
+      0;  // horizon: rows about a texel where its surface is taken exactly; 0: 8, past 64 azimuths up to 32
   double error =
       1e-3;          // horizon: RMSE over all texels and channels that is asked for, and 10 times it anywhere
   int rays = 250;    // trace, cone: for each texel

@@ -16,10 +16,17 @@
 namespace rnmbake {
 namespace {
 
-constexpr int least_period = 128;  // fewer steps hold too few slopes of lines that run into themselves
-constexpr int block = 32;          // side of the squares that are transposed at once
-constexpr int horizon_near_rows = 8, horizon_near_rows_of_more = 16;  // the latter past 64 azimuths
-constexpr double largest_over_rmse = 10;                              // errors that are asked for
+constexpr int least_period = 128;   // fewer steps hold too few slopes of lines that run into themselves
+constexpr int block = 32;           // side of the squares that are transposed at once
+constexpr int fixed_near_rows = 8;  // where the azimuths are told
+constexpr std::array<AzimuthOptions, 5> doubling_sets{{
+    {.azimuths = 32, .offset = 0.25, .near_rows = 8},
+    {.azimuths = 32, .offset = 0.75, .near_rows = 8},
+    {.azimuths = 64, .offset = 0, .near_rows = 16},
+    {.azimuths = 128, .offset = 0.5, .near_rows = 32},
+    {.azimuths = 256, .offset = 0.5, .near_rows = 32},
+}};
+constexpr double large_over_rmse = 10, most_large = 1e-4;  // errors that are large, and how many may be
 
 GridAxis axis_of(int size, Beyond beyond, int least) {
   GridAxis axis{size, size, beyond};
@@ -122,58 +129,54 @@ class HorizonRows {
   double power_;
   std::function<bool()> stop_;
   HorizonGrid by_rows_, by_columns_;
-  std::vector<float> row_heights_, column_heights_;
+  LargeVector<float> row_heights_, column_heights_;
   SweepTarget rows_, columns_;
   tbb::enumerable_thread_specific<SweepScratch> scratch_;
 };
 
-/// How far two estimates are from each other.
+/// How far two estimates are from each other: the RMS, and the share of values farther apart than `much`.
 struct Difference {
-  double rms = 0, largest = 0;
+  double rms = 0, share_of_much = 0;
 };
 
 /// The mean of two estimates that are as good as each other goes into the first.
-Difference meet(SsbumpWeights& kept, const SsbumpWeights& more) {
-  Difference difference;
+Difference meet(SsbumpWeights& kept, const SsbumpWeights& more, double much) {
   std::vector<float>& values = kept.image.data();
   double squares = 0;
+  std::size_t far = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double apart = std::abs(double{values[i]} - more.image.data()[i]);
     squares += apart * apart;
-    difference.largest = std::max(difference.largest, apart);
+    if (apart > much) ++far;
     values[i] = (values[i] + more.image.data()[i]) / 2;
   }
-  difference.rms = std::sqrt(squares / static_cast<double>(values.size()));
-  return difference;
+  const auto count = static_cast<double>(values.size());
+  return {std::sqrt(squares / count), static_cast<double>(far) / count};
 }
 
-/// Twice as many azimuths, those between the ones before, until the error is small enough. The errors of
-/// estimates that are as good as each other and have nothing else in common make them twice as far apart as
-/// their mean is from the truth.
+/// Twice as many azimuths each time, those between the ones before, and more near rows, until the error is
+/// small enough. The errors of estimates that are as good as each other and have nothing else in common make
+/// them twice as far apart as their mean is from the truth.
 SsbumpWeights refined(HorizonRows& rows, const GenerateOptions& options,
                       const std::function<void(double)>& progress) {
-  constexpr int first_azimuths = 32, few_azimuths = 64, most_azimuths = 512;
-  constexpr std::array<double, 4> offsets{0.25, 0.75, 0, 0.5};  // of 32, 32, 64, 128 and all after
+  SsbumpWeights weights;
   double done = 0;
-  const auto set = [&](int azimuths, std::size_t number) {
-    const double share = number < 2 ? 0.25 : (1 - done) / 2;
-    const int near_rows = options.near_rows > 0 ? options.near_rows
-                          : number < 2          ? horizon_near_rows
-                                                : horizon_near_rows_of_more;
-    SsbumpWeights weights =
-        rows.weights({azimuths, offsets[std::min(number, offsets.size() - 1)], near_rows, options.power},
-                     [&](double part) { progress(done + share * part); });
+  for (AzimuthOptions set : doubling_sets) {
+    set.power = options.power;
+    if (options.near_rows > 0) set.near_rows = options.near_rows;
+    const bool is_first = weights.azimuths == 0;
+    const double share = done < 0.5 ? 0.25 : (1 - done) / 2;
+    SsbumpWeights more = rows.weights(set, [&](double part) { progress(done + share * part); });
     done += share;
-    return weights;
-  };
-  SsbumpWeights weights = set(first_azimuths, 0);
-  weights.azimuths = first_azimuths;
-  for (std::size_t number = 1;; ++number) {
-    const Difference apart = meet(weights, set(weights.azimuths, number));
-    weights.azimuths *= 2;
+    if (is_first) {
+      weights = std::move(more);
+      weights.azimuths = set.azimuths;
+      continue;
+    }
+    const Difference apart = meet(weights, more, 2 * large_over_rmse * options.error);
+    weights.azimuths += set.azimuths;
     weights.rmse = apart.rms / 2;
-    const bool good = weights.rmse <= options.error && apart.largest / 2 <= largest_over_rmse * options.error;
-    if (weights.azimuths >= few_azimuths && (good || weights.azimuths >= most_azimuths)) break;
+    if (weights.rmse <= options.error && apart.share_of_much <= most_large) break;
   }
   progress(1);
   return weights;
@@ -185,8 +188,8 @@ SsbumpWeights horizon_rows(const HeightField& field, const GenerateOptions& opti
                            int last_row, const std::function<void(double)>& progress,
                            const std::function<bool()>& stop) {
   const int most_near_rows = options.near_rows > 0   ? options.near_rows
-                             : options.azimuths == 0 ? horizon_near_rows_of_more
-                                                     : horizon_near_rows;
+                             : options.azimuths == 0 ? doubling_sets.back().near_rows
+                                                     : fixed_near_rows;
   HorizonRows rows(field, first_row, last_row, most_near_rows, options.power, stop);
   const std::function<void(double)> say = progress ? progress : [](double) {};
   if (options.azimuths == 0) return refined(rows, options, say);

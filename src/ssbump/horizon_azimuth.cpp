@@ -85,7 +85,7 @@ class NearWay {
   [[nodiscard]] NearStep::Middle middle(double from, double to) const {
     const double length = to - from, at = (from + to) / 2;
     if (from == 0 || steep_ * length * length / 4 < least_bend * at) return {};
-    return {static_cast<float>(-steep_ * length * length / 4), static_cast<float>(1 / at)};
+    return {true, static_cast<float>(-steep_ * length * length / 4), static_cast<float>(1 / at)};
   }
 
   double steep_;

@@ -38,7 +38,8 @@ struct NearStep {
   /// The middle of the way across one patch: there the surface may stand higher than where the patch begins
   /// and ends. Its height is the mean of those two plus the patch's twist times `twist`.
   struct Middle {
-    float twist = 0, per_height = 0;  // 0: need not be looked at
+    bool matters = false;  // else it need not be looked at
+    float twist = 0, per_height = 0;
   };
   RowCrossing row;  // of the next row
   float per_height = 0;

@@ -25,7 +25,7 @@ HorizonGrid make_grid(const GridAxis& steps, const GridAxis& lines, int near_row
 }
 
 void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, int near_rows,
-                 std::vector<float>& memory) {
+                 LargeVector<float>& memory) {
   const int over = steps_about(near_rows), aside = lines_about(near_rows);
   const int steps = grid.steps.size, lines = grid.lines.size;
   memory.resize(static_cast<std::size_t>(grid.pitch) * (std::size_t(steps) + 2 * std::size_t(over)));

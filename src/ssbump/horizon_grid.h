@@ -1,6 +1,7 @@
 // ssbump/horizon_grid.h - a height map as the sweep walks over it: step by step, many lines side by side.
 #pragma once
 
+#include "base/large_vector.h"
 #include "ssbump/height_field.h"
 
 #include <cstddef>
@@ -58,6 +59,6 @@ inline constexpr float no_height = -1e30F;  // under which nothing can stand out
 
 /// Lays the field's heights into `memory`. `transposed`: steps go along rows.
 void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, int near_rows,
-                 std::vector<float>& memory);
+                 LargeVector<float>& memory);
 
 }  // namespace rnmbake

@@ -28,7 +28,7 @@ class Steepest {
   }
   /// Halfway across a patch of such a twist.
   HWY_INLINE void look(const NearStep::Middle& middle, V from, V to, V twist) {
-    if (middle.per_height == 0) return;
+    if (!middle.matters) return;
     const V mean = hn::Mul(hn::Add(from, to), hn::Set(d_, 0.5F));
     look(hn::MulAdd(twist, hn::Set(d_, middle.twist), mean), middle.per_height);
   }

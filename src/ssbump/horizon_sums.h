@@ -1,6 +1,7 @@
 // ssbump/horizon_sums.h - what texels see over their horizons, added up over the azimuths.
 #pragma once
 
+#include "base/large_vector.h"
 #include "ssbump/horizon_azimuth.h"
 #include "ssbump/horizon_grid.h"
 
@@ -17,7 +18,7 @@ struct SweepTarget {
   int first_step = 0, last_step = 0;  // the last is the first that is not wanted
   int first_line = 0, last_line = 0;
   int planes = 4;  // 4: power 1, straight up and ambient are the same
-  std::vector<float> sums;
+  LargeVector<float> sums;
 
   [[nodiscard]] std::size_t pitch() const {
     return row_pitch(static_cast<std::size_t>(last_line - first_line));
@@ -34,7 +35,7 @@ inline constexpr float whole_sine = 65535;
 /// back. Few of them at once keep them near the processor, more of them save ways to the sums.
 struct HorizonSines {
   static constexpr int azimuths = 4;
-  std::vector<std::uint16_t> values;
+  LargeVector<std::uint16_t> values;
 
   explicit HorizonSines(const SweepTarget& target) : values(2 * azimuths * target.plane()) {}
   [[nodiscard]] std::uint16_t* of(const SweepTarget& target, int azimuth, int way) {

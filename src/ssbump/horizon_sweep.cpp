@@ -135,8 +135,7 @@ class GroupSweep {
     for (;; ++periods) {
       const int at = line_ahead(line, Sign * periods);
       if (at < 0 || periods >= most) break;
-      const float record = std::max(before[static_cast<std::size_t>(periods)],
-                                    job_.lines.highest[static_cast<std::size_t>(at)]);
+      const float record = std::max(before[static_cast<std::size_t>(periods)], highest<Sign>(at, periods));
       before[static_cast<std::size_t>(periods) + 1] = record;
       if (job_.lines.highest_of_all - least_slope * static_cast<float>(periods * period_) <= record) break;
     }
@@ -146,18 +145,31 @@ class GroupSweep {
     }
   }
 
-  /// What is higher than `record`, from far to near. The points that the first block takes in are left out.
+  /// The first block takes in the nearest points behind the border, not the hull before it.
+  template <int Sign>
+  [[nodiscard]] bool left_out(int step) const {
+    return Sign > 0 ? step < blocks_ * count_ + ahead_ : step >= -ahead_;
+  }
+  /// Of what is not left out.
+  template <int Sign>
+  [[nodiscard]] float highest(int at, int periods) const {
+    if (periods > 1) return job_.lines.highest[static_cast<std::size_t>(at)];
+    float top = no_height;
+    for (const LinePoint& point : job_.lines.outstanding[static_cast<std::size_t>(at)])
+      if (!left_out<Sign>(point.at + Sign * period_)) top = std::max(top, point.height);
+    return top;
+  }
+
+  /// What is higher than `record`, from far to near, and not left out.
   template <int Sign>
   void push(LineHull& hull, int at, int periods, float record) const {
     if (job_.lines.highest[static_cast<std::size_t>(at)] <= record) return;
     const std::vector<LinePoint>& points = job_.lines.outstanding[static_cast<std::size_t>(at)];
-    const auto count = static_cast<int>(points.size());
-    const int moved = Sign * periods * period_;
-    const int nearest = Sign > 0 ? blocks_ * count_ - 1 + ahead_ : -ahead_;
-    for (int i = 0; i < count; ++i) {
-      const LinePoint& point = points[static_cast<std::size_t>(Sign > 0 ? count - 1 - i : i)];
-      const int step = point.at + moved;
-      if (Sign > 0 ? step <= nearest : step >= nearest) return;
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const LinePoint& point = points[Sign > 0 ? count - 1 - i : i];
+      const int step = point.at + Sign * periods * period_;
+      if (left_out<Sign>(step)) return;
       if (point.height > record) hull.push({step, point.height});
     }
   }
@@ -219,41 +231,44 @@ class GroupSweep {
   /// Steps `from` to `to` of the block at `step` are wanted.
   template <int Sign>
   void block(int step, int from, int to) {
-    const Azimuth::Way& way = azimuth_.ways[Sign > 0 ? 0 : 1];
     Tile near, raised{}, across;
     for (int i = 0; i < count_; ++i) {
-      const int at = step + i;
+      const int at = step + i, line = at >= from && at < to ? texel_line(at) : 0;
       V slope = hn::Zero(d), rise = slope;
-      const int line = at >= from && at < to ? texel_line(at) : 0;
-      if (at >= from && at < to && wanted(line)) {
-        prefetch<Sign>(at, line);
-        const float* const here = grid_.at(at, line);
-        const V eye = hn::LoadU(d, here);
-        slope = look_near(d, way, here, eye);
-        const float* const beyond = here + way.beyond.at;
-        const V a = hn::LoadU(d, beyond), b = hn::LoadU(d, beyond + way.side);
-        rise = hn::Sub(eye, hn::MulAdd(hn::Sub(b, a), hn::Set(d, way.beyond.part), a));
-      }
+      if (at >= from && at < to && wanted(line)) look_near<Sign>(slope, rise, at, line);
       hn::Store(slope, d, near.row(i));
       hn::Store(rise, d, raised.row(i));
     }
     transpose(d, raised.row(0), Tile::pitch, across.row(0), Tile::pitch);
+    Tile& seen = raised;
     for (int lane = 0; lane < count_ && job_.lines.valid(start_ + lane); ++lane) {
       const LineBlock<Sign, D> block(d, heights_.line(lane) + pad(), step, ahead_, job_.reciprocals);
-      // The line may pass up to half a texel beside the texel's centre: its points are seen from as much
-      // higher up as the first of them is higher than straight ahead, or planes would stand in their own
-      // light.
       const V eye = hn::Add(hn::Load(d, across.row(lane)), block.heights());
       const V slope = block.template look_and_push<true>(scratch_.hulls[static_cast<std::size_t>(lane)], eye);
-      hn::Store(slope, d, raised.row(lane));
+      hn::Store(slope, d, seen.row(lane));
     }
-    transpose(d, raised.row(0), Tile::pitch, across.row(0), Tile::pitch);
+    transpose(d, seen.row(0), Tile::pitch, across.row(0), Tile::pitch);
     const V per_step = hn::Set(d, azimuth_.per_step);
     for (int at = from; at < to; ++at) {
       const V slope = hn::Max(hn::Load(d, near.row(at - step)), hn::Load(d, across.row(at - step)));
       const int line = texel_line(at);
       if (wanted(line)) put<Sign>(hn::Mul(slope, per_step), at, line);
     }
+  }
+
+  /// The slope to what is near, and how high over the line's first point an eye is that looks at the line.
+  /// The line may pass up to half a texel beside the texel's centre: its points are seen from as much higher
+  /// up as the first of them is higher than straight ahead, or planes would stand in their own light.
+  template <int Sign>
+  void look_near(V& slope, V& rise, int step, int line) const {
+    prefetch<Sign>(step, line);
+    const Azimuth::Way& way = azimuth_.ways[Sign > 0 ? 0 : 1];
+    const float* const here = grid_.at(step, line);
+    const float* const beyond = here + way.beyond.at;
+    const V texel = hn::LoadU(d, here), a = hn::LoadU(d, beyond), b = hn::LoadU(d, beyond + way.side);
+    const V straight = hn::MulAdd(hn::Sub(b, a), hn::Set(d, way.beyond.part), a);
+    slope = HWY_NAMESPACE::look_near(d, way, here, texel);
+    rise = hn::Sub(texel, straight);
   }
 
   /// Each step is in another page, which no processor foresees.

@@ -119,19 +119,37 @@ TEST(Horizon, AtTheBottomOfAGrooveIsAClosedForm) {
   }
 }
 
-TEST(Horizon, ATileHasNoSeam) {
-  const HeightField field = rough_field(128, 256, Beyond::wrap, 20);
-  const HeightField moved = field_of(128, 256, Beyond::wrap, [&](int x, int y) {
-    return field.heights.texel((x + 64) % 128, (y + 128) % 256)[0];
+/// By how much a tile differs that is moved by half its size, generated, and moved back.
+double seam_of(const HeightField& field) {
+  const int width = field.width(), height = field.height();
+  const auto over = [&](int x, int y) {
+    return std::pair((x + width / 2) % width, (y + height / 2) % height);
+  };
+  const HeightField moved = field_of(width, height, Beyond::wrap, [&](int x, int y) {
+    const auto [u, v] = over(x, y);
+    return field.heights.texel(u, v)[0];
   });
   const FloatImage here = generate(field, {}).image, there = generate(moved, {}).image;
   double largest = 0;
-  for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 128; ++x)
-      for (std::size_t c = 0; c < 5; ++c)
-        largest = std::max(
-            largest, std::abs(double(here.texel((x + 64) % 128, (y + 128) % 256)[c]) - there.texel(x, y)[c]));
-  EXPECT_LE(largest, 1e-5);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto [u, v] = over(x, y);
+      for (std::size_t c = 0; c < SsbumpWeights::channels; ++c)
+        largest = std::max(largest, std::abs(double{here.texel(u, v)[c]} - there.texel(x, y)[c]));
+    }
+  }
+  return largest;
+}
+
+TEST(Horizon, ATileHasNoSeam) {
+  EXPECT_LE(seam_of(rough_field(128, 256, Beyond::wrap, 20)), 1e-5);
+}
+
+TEST(Horizon, ACliffAtTheSeamIsNoneEither) {
+  // beside the cliff texels see its end exactly, where the line that passes them stands higher
+  EXPECT_LE(seam_of(field_of(256, 256, Beyond::wrap, [](int x, int y) { return 0.25 * x + 0.125 * y; })),
+            1e-5);
+  EXPECT_LE(seam_of(field_of(256, 256, Beyond::wrap, [](int x, int) { return x < 128 ? 16 : 0; })), 1e-5);
 }
 
 TEST(Horizon, BandsAreTheWhole) {
