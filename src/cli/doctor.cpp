@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/machine.h"
 #include "base/version.h"
 #include "blender/find.h"
 #include "blender/probe.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -18,7 +18,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/ranges.h>
-#include <unistd.h>
 
 namespace rnmbake {
 
@@ -43,21 +42,10 @@ struct Findings {
   std::vector<Lack> missing;
 };
 
-/// The control group's limit, as containers set it (version 2, then version 1).
-std::uintmax_t memory_limit() {
-  for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    std::ifstream stream(file);
-    std::uintmax_t bytes = 0;
-    if (stream >> bytes && bytes < std::uintmax_t{1} << 60) return bytes;
-  }
-  return 0;
-}
-
 Machine look_at_machine() {
   Machine machine;
   machine.threads = std::thread::hardware_concurrency();
-  machine.memory_bytes = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  machine.memory_bytes = machine_memory();
   machine.memory_limit_bytes = memory_limit();
   machine.temp_folder = temp_root();
   std::error_code error;

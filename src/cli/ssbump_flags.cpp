@@ -133,6 +133,13 @@ void SsbumpFlags::add_method_flags(CLI::App& command) {
       ->check(CLI::Range(0, 16).description(""))
       ->type_name("N");
   command.add_option("--seed", run_.generate.seed, "of rays and dither [0]")->type_name("N");
+  command
+      .add_option(
+          "--memory-limit", memory_mib_,
+          "MiB beside the heights; larger maps are made in parts [a quarter of the machine's, at least "
+          "2048]")
+      ->check(CLI::Range(64, 1 << 24).description(""))
+      ->type_name("MIB");
   command.add_option("--threads", run_.generate.threads, "0: all cores [0]")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");
@@ -190,6 +197,7 @@ HeightOptions SsbumpFlags::height_options() const {
 GenerateOptions SsbumpFlags::generate_options() const {
   GenerateOptions generate = run_.generate;
   if (!(generate.power > 0)) fail(ExitCode::usage, "--power 0 has no direction; give a number above 0");
+  generate.memory = memory_mib_ << 20;
   generate.method = method_ == "trace"  ? SsbumpMethod::trace
                     : method_ == "cone" ? SsbumpMethod::cone
                                         : SsbumpMethod::horizon;

@@ -4,6 +4,7 @@
 #include "cli/ssbump_mesh_flags.h"
 #include "pipeline/ssbump_run.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -44,6 +45,7 @@ class SsbumpFlags {
   SsbumpMeshFlags meshes_;
   SsbumpRunOptions run_;
   std::optional<double> height_, height_world_, texel_size_;
+  std::uint64_t memory_mib_ = 0;
   std::string wrap_ = "x,y", method_ = "horizon", scale_ = "third", handed_ = "right", alpha_ = "none", bits_;
   bool alpha_ao_ = false;
 };

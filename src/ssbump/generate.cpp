@@ -1,6 +1,7 @@
 #include "ssbump/generate.h"
 
 #include "base/error.h"
+#include "base/machine.h"
 #include "ssbump/generate_bounces.h"
 #include "ssbump/generate_rays.h"
 #include "ssbump/horizon.h"
@@ -48,11 +49,13 @@ SsbumpWeights some_rows(const HeightField& field, const GenerateOptions& options
 
 /// How many rows at once keep within the memory.
 int rows_at_once(const HeightField& field, const GenerateOptions& options) {
-  const std::size_t fixed = 2 * field.heights.texels() * sizeof(float);  // along both axes
-  const std::size_t left = options.memory > fixed ? options.memory - fixed : 0;
-  const std::size_t row = horizon_bytes_per_texel * static_cast<std::size_t>(field.width());
-  const std::size_t fit = std::max(left / row, std::size_t{least_rows});
-  return static_cast<int>(std::min(fit, static_cast<std::size_t>(field.height())));
+  const std::uint64_t memory =
+      options.memory > 0 ? options.memory : std::max(usable_memory() / 4, std::uint64_t{2} << 30);
+  const std::uint64_t fixed = field.heights.texels() * sizeof(float);  // the grid's
+  const std::uint64_t left = memory > fixed ? memory - fixed : 0;
+  const std::uint64_t row = horizon_bytes_per_texel * static_cast<std::uint64_t>(field.width());
+  const std::uint64_t fit = std::max(left / row, std::uint64_t{least_rows});
+  return static_cast<int>(std::min(fit, static_cast<std::uint64_t>(field.height())));
 }
 
 }  // namespace

@@ -26,11 +26,12 @@ struct GenerateOptions {
   int rays = 250;    // trace, cone: for each texel
   double power = 1;  // of max(0, D . axis)
   int bounces = 0;   // light that other texels send back: how many reflections; by rays in any method
-  float albedo = 0.5F;                        // of the surface, where `albedo_map` is null
-  const FloatImage* albedo_map = nullptr;     // first channel, of the height field's size
-  std::uint64_t seed = 0;                     // of the rays
-  int threads = 0;                            // 0: all cores
-  std::size_t memory = std::size_t{2} << 30;  // bytes that generate_rows() may take beside the heights
+  float albedo = 0.5F;                     // of the surface, where `albedo_map` is null
+  const FloatImage* albedo_map = nullptr;  // first channel, of the height field's size
+  std::uint64_t seed = 0;                  // of the rays
+  int threads = 0;                         // 0: all cores
+  std::uint64_t memory = 0;  // bytes that generate_rows() may take beside the heights; 0: a quarter of what
+                             // the machine has, at least 2 GiB
 };
 
 /// Deterministic for a seed at any number of threads. Heights must be finite. `progress` receives the share

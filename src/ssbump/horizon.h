@@ -8,8 +8,8 @@
 
 namespace rnmbake {
 
-/// For each texel of the rows wanted: sums of two grids, weights of two sets of azimuths, sines. Beside them
-/// all heights are kept twice more.
+/// For each texel of the rows wanted: sums over both grids and those of another set of azimuths, sines, and
+/// the weights. Beside them all heights are kept once more.
 inline constexpr std::size_t horizon_bytes_per_texel =
     4 * SsbumpWeights::channels * sizeof(float) + 2 * HorizonSines::azimuths * sizeof(std::uint16_t);
 

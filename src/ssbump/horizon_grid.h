@@ -16,19 +16,18 @@ struct GridAxis {
   Beyond beyond = Beyond::wrap;
 
   [[nodiscard]] bool repeats() const { return beyond != Beyond::none; }
-  /// Within the period; for axes that repeat.
+  /// Within the period; for axes that repeat. Mostly one period away at most: divisions are slow.
   [[nodiscard]] int fold(int i) const {
+    if (i < 0) i += period;
+    if (i >= period) i -= period;
+    if (i >= 0 && i < period) return i;
     const int rest = i % period;
     return rest < 0 ? rest + period : rest;
   }
   /// The texel of the map at any place.
   [[nodiscard]] int texel(int i) const {
     if (i >= 0 && i < size) return i;
-    if (!repeats()) return i < 0 ? 0 : size - 1;
-    const int part = fold(i);
-    if (beyond == Beyond::wrap) return part % size;
-    const int folded = part % (2 * size);
-    return folded < size ? folded : 2 * size - 1 - folded;
+    return texel_beyond(i, size, beyond);
   }
 };
 

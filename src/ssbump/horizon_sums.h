@@ -37,7 +37,7 @@ struct HorizonSines {
   static constexpr int azimuths = 4;
   LargeVector<std::uint16_t> values;
 
-  explicit HorizonSines(const SweepTarget& target) : values(2 * azimuths * target.plane()) {}
+  void make_room(const SweepTarget& target) { values.resize(2 * azimuths * target.plane()); }
   [[nodiscard]] std::uint16_t* of(const SweepTarget& target, int azimuth, int way) {
     return values.data() + static_cast<std::size_t>(2 * azimuth + way) * target.plane();
   }

@@ -4,11 +4,10 @@
 
 namespace rnmbake {
 
-void LineHull::make_room() {
-  const auto needed = static_cast<std::size_t>(count_ + most_at_once);
-  if (at_.size() >= needed) return;
-  at_.resize(2 * needed);
-  heights_.resize(2 * needed);
+void LineHull::grow() {
+  const auto needed = 2 * static_cast<std::size_t>(count_ + most_at_once);
+  at_.resize(needed);
+  heights_.resize(needed);
 }
 
 void LineHull::push(const LinePoint& point) {

@@ -41,9 +41,13 @@ class LineHull {
   }
   /// A point that is nearer than all; those under it go.
   void push(const LinePoint& point);
-  void make_room();
+  void make_room() {
+    if (at_.size() < static_cast<std::size_t>(count_ + most_at_once)) grow();
+  }
 
  private:
+  void grow();
+
   std::vector<std::int32_t> at_;
   std::vector<float> heights_;
   int count_ = 0;

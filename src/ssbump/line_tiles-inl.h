@@ -101,8 +101,11 @@ class SampledLines {
     int line = start_;
     float part = 0;
     const GridAxis& steps = grid_.steps;
-    if (steps.repeats() || (step >= 0 && step < steps.period)) {
-      const int within = steps.repeats() ? steps.fold(step) : step;
+    if (step >= 0 && step < steps.period) {
+      line += azimuth_.whole[static_cast<std::size_t>(step)];
+      part = azimuth_.part[static_cast<std::size_t>(step)];
+    } else if (steps.repeats()) {
+      const int within = steps.fold(step);
       line +=
           (step - within) / steps.period * azimuth_.shift + azimuth_.whole[static_cast<std::size_t>(within)];
       part = azimuth_.part[static_cast<std::size_t>(within)];

@@ -157,7 +157,7 @@ TEST(Horizon, BandsAreTheWhole) {
     const HeightField field = rough_field(70, 90, beyond, 20);
     GenerateOptions options;
     const FloatImage whole = generate(field, options).image;
-    options.memory = 0;
+    options.memory = 1;
     FloatImage parts(70, 90, SsbumpWeights::channels);
     int bands = 0, next = 0;
     generate_rows(field, options, [&](int first, const SsbumpWeights& rows) {
