@@ -30,8 +30,9 @@ using nlohmann::json;
 
 constexpr int kRuns = 7;
 constexpr float kRange = 32, kEdgeShare = 0.03F;  // heights; of them, as in the command
-constexpr int kMargin = 256;                      // past which rays of the loop meet nothing
-constexpr int kPart = 16;                         // of the loop's rows are traced to choose how to go on
+constexpr int kAzimuthsOfSides = 64;
+constexpr int kMargin = 256;  // past which rays of the loop meet nothing
+constexpr int kPart = 16;     // of the loop's rows are traced to choose how to go on
 constexpr std::uint64_t kSeedOfLoop = 1, kSeedOfTruth = 2;
 constexpr int kAzimuthsOfTruth = 2048;
 
@@ -105,7 +106,8 @@ json measure_instructions(const HeightField& field, const GenerateOptions& optio
   return result;
 }
 
-json measure_sides(const Arguments& arguments, const GenerateOptions& options) {
+json measure_sides(const Arguments& arguments, GenerateOptions options) {
+  options.azimuths = kAzimuthsOfSides;  // the same for all
   json rows = json::array();
   for (const int side : arguments.sides) {
     const HeightField field = cobbles(side, kRange);

@@ -97,6 +97,6 @@ def sides(data):
              *(f"{1e9 * per_texel(row, kind):.0f}" for kind in ("seconds", "cpu_seconds"))] for row in data["sides"]]
     isa = [[name, *times(time)] for name, time in data["instructions"].items()]
     return (table(["texels", "sweep, wall s", "CPU s", "wall ns for a texel", "CPU ns"], rows) +
-            "\n\nStones and heights are of the same size in texels at every side.\n\n" +
+            "\n\n64 azimuths; stones and heights are of the same size in texels at every side.\n\n" +
             table([f"instructions, {data['side']} x {data['side']}", "sweep, wall s", "CPU s"], isa) +
             f"\n\nThe filter takes {data['filter']['time']['seconds']:.3f} s. Times are the best of seven where one is below two seconds.")

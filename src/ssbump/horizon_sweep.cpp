@@ -208,23 +208,28 @@ class GroupSweep {
 
   template <int Sign>
   void one_way(int first, int last) {
+    const int lowest = first / count_ * count_, highest = (last - 1) / count_ * count_;  // blocks
     look_beyond<Sign>();
-    for (int i = 0; i < blocks_; ++i) {
-      const int step = (Sign > 0 ? blocks_ - 1 - i : i) * count_;
-      if (Sign > 0 ? step + count_ <= first : step >= last) break;
-      const int from = std::max(step, first), to = std::min(step + count_, last);
-      if (from < to)
-        block<Sign>(step, from, to);
-      else
-        push_block<Sign>(step);
+    if (Sign > 0)
+      push_unwanted<Sign>(highest + count_ + ahead_, blocks_ * count_ + ahead_);
+    else
+      push_unwanted<Sign>(-ahead_, lowest - ahead_);
+    for (int i = 0; i <= highest - lowest; i += count_) {
+      const int step = Sign > 0 ? highest - i : lowest + i;
+      block<Sign>(step, std::max(step, first), std::min(step + count_, last));
     }
   }
 
+  /// What stands between the border and the points that the first block takes in.
   template <int Sign>
-  void push_block(int step) {
+  void push_unwanted(int from, int to) {
+    if (from >= to) return;
+    std::vector<LinePoint>& points = scratch_.beyond;
     for (int lane = 0; lane < count_ && job_.lines.valid(start_ + lane); ++lane) {
-      const LineBlock<Sign, D> block(d, heights_.line(lane) + pad(), step, ahead_, job_.reciprocals);
-      block.template look_and_push<false>(scratch_.hulls[static_cast<std::size_t>(lane)], hn::Zero(d));
+      points.clear();
+      append_hull(d, heights_.line(lane) + pad(), from, to - 1, bulge(), points, scratch_.parts);
+      if (Sign > 0) std::ranges::reverse(points);
+      for (const LinePoint& point : points) scratch_.hulls[static_cast<std::size_t>(lane)].push(point);
     }
   }
 
@@ -244,7 +249,7 @@ class GroupSweep {
     for (int lane = 0; lane < count_ && job_.lines.valid(start_ + lane); ++lane) {
       const LineBlock<Sign, D> block(d, heights_.line(lane) + pad(), step, ahead_, job_.reciprocals);
       const V eye = hn::Add(hn::Load(d, across.row(lane)), block.heights());
-      const V slope = block.template look_and_push<true>(scratch_.hulls[static_cast<std::size_t>(lane)], eye);
+      const V slope = block.look_and_push(scratch_.hulls[static_cast<std::size_t>(lane)], eye);
       hn::Store(slope, d, seen.row(lane));
     }
     transpose(d, seen.row(0), Tile::pitch, across.row(0), Tile::pitch);

@@ -43,9 +43,8 @@ class LineBlock {
 
   /// The hull has all points before these ones, which it takes in. Returns the largest slope from eyes of
   /// such heights over the texels to what lies `ahead` and farther, in heights for one step.
-  template <bool Look>
   HWY_INLINE V look_and_push(LineHull& hull, V eye) const {
-    V seen = Look ? hn::Mul(hn::Sub(point_, eye), hn::Set(d_, reciprocals_[ahead_])) : eye;
+    V seen = hn::Mul(hn::Sub(point_, eye), hn::Set(d_, reciprocals_[ahead_]));
     // On the hull are points that every nearer one sees under a larger slope than they see any farther one.
     // The nearest neighbours are enough to tell, on both sides, past these ones too: whoever does not see a
     // point that thus goes has what it hides among his own nearest neighbours, which he is shown one by one.
@@ -56,17 +55,15 @@ class LineBlock {
       const V per_step = hn::Set(d_, reciprocals_[i]);
       to_farther = hn::Max(to_farther, hn::Mul(hn::Sub(far, point_), per_step));
       from_nearer = hn::Min(from_nearer, hn::Mul(hn::Sub(point_, near), per_step));
-      if constexpr (Look)
-        seen = hn::Max(seen, hn::Mul(hn::Sub(far, eye), hn::Set(d_, reciprocals_[ahead_ + i])));
+      seen = hn::Max(seen, hn::Mul(hn::Sub(far, eye), hn::Set(d_, reciprocals_[ahead_ + i])));
     }
-    scan<Look>(hull, eye, seen, to_farther);
+    scan(hull, eye, seen, to_farther);
     append(hull, from_nearer, to_farther);
     return seen;
   }
 
  private:
   /// Down the hull, from near to far. Who looks at a hull sees slopes rise, then fall for good.
-  template <bool Look>
   HWY_INLINE void scan(LineHull& hull, V eye, V& seen, V& to_farther) const {
     constexpr int at_once = 4;
     const Steps steps;
@@ -83,15 +80,11 @@ class LineBlock {
         const auto steeper = hn::Gt(slope, tangent);
         tangent = hn::Max(slope, tangent);
         tangent_at = hn::IfThenElse(hn::RebindMask(steps, steeper), hn::Set(steps, k), tangent_at);
-        if constexpr (Look) {
-          eye_before = eye_slope;
-          eye_slope = hn::Mul(hn::Sub(height, eye), hn::LoadU(d_, per_step));
-          seen = hn::Max(seen, eye_slope);
-        }
+        eye_before = eye_slope;
+        eye_slope = hn::Mul(hn::Sub(height, eye), hn::LoadU(d_, per_step));
+        seen = hn::Max(seen, eye_slope);
       }
-      auto falls = hn::Lt(slope, before);
-      if constexpr (Look) falls = hn::And(falls, hn::Lt(eye_slope, eye_before));
-      if (hn::AllTrue(d_, falls)) break;
+      if (hn::AllTrue(d_, hn::And(hn::Lt(slope, before), hn::Lt(eye_slope, eye_before)))) break;
     }
     // What is nearer than the tangent's point is under the line to that.
     hull.keep(hn::GetLane(hn::MinOfLanes(steps, tangent_at)) + 1);
