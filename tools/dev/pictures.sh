@@ -8,7 +8,7 @@ mosaic() {
     -d uint8 --compression jpeg:92 -o docs/images/views.jpg
 }
 
-# docs/images/report.png, whose finding goes to stdout, views.jpg with the errors of its parts, and ssbump-*.png.
+# docs/images/report.png, views.jpg and ssbump-*.png, and the figures that README.md quotes.
 pictures() {
   require "${test_packages[@]}"
   build release --target rnmbake
@@ -23,4 +23,5 @@ pictures() {
     --samples 64 -o "$views"
   python3 tools/dev/ssbump_picture.py "$rnmbake" out/pictures/ssbump docs/images
   mosaic cycles.exr truth.exr single-lightmap.exr rnm-squared.exr
+  python3 tools/dev/readme_figures.py out/pictures/validate/report.json "$views/report.json"
 }
