@@ -10,12 +10,14 @@ namespace {
 
 struct Errors {
   double rms = 0, largest = 0;
+  double estimated = 0;  // RMS
+  int azimuths = 0;
 };
 
 Errors errors(const HeightField& field, const GenerateOptions& options, int every) {
   const SsbumpWeights weights = generate(field, options);
   const HeightRays surface(field);
-  Errors result;
+  Errors result{.estimated = weights.rmse, .azimuths = weights.azimuths};
   int count = 0;
   for (int i = 0; i < field.width() * field.height(); i += every) {
     const int x = i % field.width(), y = i / field.width();
@@ -98,6 +100,56 @@ TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
   options.azimuths = 256;
   options.near_rows = 32;
   EXPECT_LT(errors(field, options, 397).rms, rms / 1.5);
+}
+
+/// Terraces with cliffs of `high` texels.
+HeightField cliffs(double high, Beyond beyond = Beyond::wrap) {
+  HeightField field = rough_field(96, 96, beyond, 24);
+  for (float& height : field.heights.data()) height = static_cast<float>(high * std::floor(height / 3));
+  return field;
+}
+
+TEST(Horizon, AzimuthsAreDoubledUntilCliffsAreNearEnough) {
+  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+    const Errors found = errors(cliffs(6, beyond), {}, 97);
+    EXPECT_GT(found.azimuths, 64);
+    EXPECT_LE(found.rms, 0.001);
+    EXPECT_LE(found.largest, 0.01);
+    EXPECT_LE(found.estimated, 0.001);
+    EXPECT_GT(found.estimated, found.rms / 3);
+    EXPECT_LT(found.estimated, found.rms * 3);
+  }
+}
+
+TEST(Horizon, SmoothWavesDoWithTheFirstAzimuths) {
+  const Errors found =
+      errors(field_of(96, 96, Beyond::wrap,
+                      [](int x, int y) { return 4 * std::sin(2 * pi * x / 48) * std::cos(2 * pi * y / 32); }),
+             {}, 97);
+  EXPECT_EQ(found.azimuths, 64);
+  EXPECT_LE(found.rms, 0.001);
+}
+
+TEST(Horizon, ASmallerErrorTakesMoreAzimuths) {
+  GenerateOptions options;
+  int azimuths = 0;
+  double rms = 1;
+  for (const double error : {0.01, 1e-3, 2e-4}) {
+    options.error = error;
+    const Errors found = errors(cliffs(2), options, 97);
+    EXPECT_GT(found.azimuths, azimuths) << error;
+    EXPECT_LT(found.rms, rms) << error;
+    azimuths = found.azimuths;
+    rms = found.rms;
+  }
+}
+
+TEST(Horizon, AzimuthsThatAreToldAreTaken) {
+  GenerateOptions options;
+  options.azimuths = 32;
+  const SsbumpWeights weights = generate(cliffs(6), options);
+  EXPECT_EQ(weights.azimuths, 32);
+  EXPECT_LT(weights.rmse, 0);  // not known
 }
 
 TEST(Horizon, OtherPowersComeOutOfTables) {
