@@ -16,6 +16,7 @@ enum class Beyond : std::uint8_t { wrap, mirror, none };
   if (i >= 0 && i < size) return i;
   if (beyond == Beyond::none) return i < 0 ? 0 : size - 1;
   const int period = beyond == Beyond::mirror ? 2 * size : size;
+  // A map has texels. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
   const int rest = i % period, folded = rest < 0 ? rest + period : rest;
   return folded < size ? folded : period - 1 - folded;
 }

@@ -30,7 +30,8 @@ std::vector<Line> texel_lines(int count, Beyond beyond, double reach) {
   std::vector<Line> lines;
   const auto last = static_cast<float>(count - 1);
   const std::vector<float> skirt = beyond == Beyond::none ? skirt_of(reach) : std::vector<float>{};
-  for (auto place = skirt.rbegin(); place != skirt.rend(); ++place) lines.push_back({-*place, 0});
+  for (const float place : skirt) lines.push_back({-place, 0});
+  std::ranges::reverse(lines);
   if (beyond == Beyond::mirror) lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned
   for (int i = 0; i < count; ++i) lines.push_back({static_cast<float>(i), i});
   for (const float place : skirt) lines.push_back({last + place, count - 1});

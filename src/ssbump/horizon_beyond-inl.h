@@ -122,9 +122,10 @@ class BorderView {
       points.clear();
       append_hull(D(), heights.line(lane), 0, places.count - 1, least_bulge * job_.grid.range, points,
                   scratch_.parts);
-      for (auto point = points.rbegin(); point != points.rend(); ++point)
+      std::ranges::reverse(points);
+      for (const LinePoint& point : points)
         scratch_.hulls[static_cast<std::size_t>(lane)].push(
-            {places.first + point->at * places.stride, point->height});
+            {places.first + point.at * places.stride, point.height});
     }
   }
 

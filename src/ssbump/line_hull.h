@@ -42,7 +42,7 @@ class LineHull {
   /// A point that is nearer than all; those under it go.
   void push(const LinePoint& point);
   void make_room() {
-    if (at_.size() < static_cast<std::size_t>(count_ + most_at_once)) grow();
+    if (at_.size() < static_cast<std::size_t>(count_) + most_at_once) grow();
   }
 
  private:
