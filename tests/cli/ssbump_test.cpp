@@ -1,4 +1,5 @@
 // The command as a user calls it: height maps of every kind in, files and messages out.
+#include "base/error.h"
 #include "base/files.h"
 #include "cli/command_test.h"
 #include "image/picture_rows.h"
@@ -73,6 +74,46 @@ TEST_F(SsbumpCommand, IsTheSameAtAnyNumberOfThreads) {
   ASSERT_EQ(ssbump({path("bumps.exr"), "--threads", "1", "-o", path("a.png")}), 0);
   ASSERT_EQ(ssbump({path("bumps.exr"), "--threads", "3", "-o", path("b.png")}), 0);
   EXPECT_EQ(read_text(path("a.png")), read_text(path("b.png")));
+}
+
+TEST_F(SsbumpCommand, TakesAzimuthsOrAnErrorButNotBoth) {
+  bumps();
+  EXPECT_EQ(ssbump({path("bumps.exr"), "--azimuths", "64", "--error", "0.01", "-o", path("s.exr")}),
+            static_cast<int>(ExitCode::usage));
+  EXPECT_TRUE(said("--azimuths excludes --error")) << said_;
+
+  ASSERT_EQ(ssbump({path("bumps.exr"), "--azimuths", "20", "--json", "-o", path("s.exr")}), 0) << said_;
+  auto json = nlohmann::json::parse(printed_);
+  EXPECT_EQ(json["azimuths"], 20);
+  EXPECT_FALSE(json.contains("rmse"));
+
+  ASSERT_EQ(ssbump({path("bumps.exr"), "--error", "0.5", "--json", "-o", path("s.exr")}), 0) << said_;
+  json = nlohmann::json::parse(printed_);
+  EXPECT_EQ(json["azimuths"], 64);
+  EXPECT_LE(json["rmse"].get<double>(), 0.5);
+}
+
+TEST_F(SsbumpCommand, WarnsWhereNoNumberOfAzimuthsIsEnough) {
+  write("steps.exr", 64, 64, Storage::full, [](int x, int y) { return x / 16 + y / 16; });
+  ASSERT_EQ(ssbump({path("steps.exr"), "-f", "0", "--height", "20", "--error", "1e-5", "-o", path("s.exr")}),
+            0);
+  EXPECT_TRUE(said("with 512 azimuths, which is the most that are tried")) << said_;
+}
+
+TEST_F(SsbumpCommand, KeepsToItsMemoryByPartsThatMakeTheSameMap) {
+  for (const int height : {64, 2048}) {  // in one part, in more
+    bumps("h.exr", 512, height);
+    const std::vector<std::string> common{path("h.exr"), "-f", "0", "--azimuths", "4", "-o"};
+    std::vector<std::string> whole = common, parts = common;
+    whole.push_back(path("whole.exr"));
+    parts.insert(parts.end(), {path("parts.exr"), "--memory-limit", "64"});
+    ASSERT_EQ(ssbump(whole), 0) << said_;
+    ASSERT_EQ(ssbump(parts), 0) << said_;
+    const FloatImage expected = weights("whole.exr"), got = weights("parts.exr");
+    ASSERT_EQ(got.data().size(), expected.data().size());
+    for (std::size_t i = 0; i < got.data().size(); ++i)
+      ASSERT_NEAR(got.data()[i], expected.data()[i], 1e-5) << height << ' ' << i;
+  }
 }
 
 TEST_F(SsbumpCommand, TakesAnySize) {
