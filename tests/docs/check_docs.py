@@ -115,9 +115,10 @@ class Documentation(unittest.TestCase):
         by_command = self.flags_by_command()
         dev = subprocess.run([ROOT / "dev"], check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
         known = set().union(FOREIGN_FLAGS, flags_in(dev), *by_command.values())
-        for folder in ("bench", "tests", "tools"):
-            for script in ROOT.glob(folder + "/**/*.py"):
-                known |= {flag for _, line in numbered_lines(script) if "add_argument" in line for flag in flags_in(line)}
+        for files, call in (("bench/**/*.py", "add_argument"), ("tests/**/*.py", "add_argument"),
+                            ("tools/**/*.py", "add_argument"), ("bench/*.cpp", "add_option")):
+            for file in ROOT.glob(files):
+                known |= {flag for _, line in numbered_lines(file) if call in line for flag in flags_in(line)}
         for page in pages():
             for place, line in numbered_lines(page):
                 with self.subTest(place):
