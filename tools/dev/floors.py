@@ -23,6 +23,7 @@ OWNED = {
     "CLI/": {"cli"},
     "embree": {"rays"},
     "tbb/": {"trace", "ssbump"},
+    "hwy/": {"ssbump"},
     "xxhash.h": {"base"},
     "zlib.h": {"report"},
 }
