@@ -75,12 +75,12 @@ template <class D, class V = hn::Vec<D>>
 class SampledLines {
  public:
   SampledLines(const HorizonGrid& grid, const Azimuth& azimuth, int start)
-      : grid_(grid), azimuth_(azimuth), start_(start) {}
+      : grid_(grid), azimuth_(azimuth), start_(start), aside_soon_(static_cast<int>(azimuth.slope * soon)) {}
 
   LineHeights fill(std::vector<float>& memory, const Places& places) const {
     const auto lanes = static_cast<int>(hn::Lanes(d));
-    const int blocks = (places.count + lanes - 1) / lanes;
-    const std::size_t pitch = row_pitch(static_cast<std::size_t>(blocks * lanes));
+    const int blocks = (places.count + lanes - 1) / lanes, padded = blocks * lanes;
+    const std::size_t pitch = row_pitch(static_cast<std::size_t>(padded));
     memory.resize(pitch * static_cast<std::size_t>(lanes));
     Tile tile;
     for (int block = 0; block < blocks; ++block) {
@@ -95,6 +95,7 @@ class SampledLines {
 
  private:
   static constexpr D d{};
+  static constexpr int soon = 24;  // steps
 
   /// At any step, interpolated between the two texels about each line.
   HWY_INLINE V sample(int step) const {
@@ -118,10 +119,20 @@ class SampledLines {
     const GridAxis& lines = grid_.lines;
     if (lines.repeats() && (line < 0 || line >= lines.size)) line = lines.fold(line);
     const float* const row = grid_.row(step);
-    if (line >= 0 && line + lanes < lines.size) return between(row + line, part);
+    if (line >= 0 && line + lanes < lines.size) {
+      prefetch(step, line, lanes);
+      return between(row + line, part);
+    }
     std::array<float, most_lines_at_once + 1> values;
     for (int i = 0; i <= lanes; ++i) values[static_cast<std::size_t>(i)] = row[lines.texel(line + i)];
     return between(values.data(), part);
+  }
+  /// Rows lie too far apart for a processor to foresee them.
+  HWY_INLINE void prefetch(int step, int line, int lanes) const {
+    if (step + soon >= grid_.steps.size || step + soon < 0) return;
+    const float* const later = grid_.at(step + soon, line + aside_soon_);
+    __builtin_prefetch(later);
+    __builtin_prefetch(later + lanes);
   }
   HWY_INLINE static V between(const float* at, float part) {
     const V a = hn::LoadU(d, at), b = hn::LoadU(d, at + 1);
@@ -130,7 +141,7 @@ class SampledLines {
 
   const HorizonGrid& grid_;
   const Azimuth& azimuth_;
-  int start_;
+  int start_, aside_soon_;
 };
 
 }  // namespace rnmbake::HWY_NAMESPACE
