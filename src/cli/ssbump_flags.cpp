@@ -116,8 +116,8 @@ void SsbumpFlags::add_method_flags(CLI::App& command) {
   command
       .add_option(
           "--error", run_.generate.error,
-          "of the horizon's weights, RMS (and ten times that anywhere): azimuths are doubled from 64 to "
-          "at most 512 until two halves of them agree [0.001]")
+          "of the horizon's weights, RMS (and ten times that for all but one in 10,000): azimuths are "
+          "doubled from 64 to at most 512 until two halves of them agree [0.001]")
       ->check(CLI::Range(1e-5, 1.0).description(""))
       ->excludes(azimuths)
       ->type_name("E");
