@@ -30,6 +30,7 @@ std::vector<Line> texel_lines(int count, Beyond beyond, double reach) {
   std::vector<Line> lines;
   const auto last = static_cast<float>(count - 1);
   const std::vector<float> skirt = beyond == Beyond::none ? skirt_of(reach) : std::vector<float>{};
+  lines.reserve(2 * skirt.size() + static_cast<std::size_t>(count) + 2);
   for (const float place : skirt) lines.push_back({-place, 0});
   std::ranges::reverse(lines);
   if (beyond == Beyond::mirror) lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned

@@ -81,9 +81,9 @@ bool on_hull(const std::vector<float>& line, int at, double least = 0) {
 
 /// Whole numbers: many lie on lines through others.
 std::vector<float> whole_heights(std::mt19937& random, int count, int highest) {
-  std::vector<float> line;
+  std::vector<float> line(static_cast<std::size_t>(count));
   std::uniform_int_distribution<int> height(0, highest);
-  for (int i = 0; i < count; ++i) line.push_back(static_cast<float>(height(random)));
+  for (float& one : line) one = static_cast<float>(height(random));
   return line;
 }
 
