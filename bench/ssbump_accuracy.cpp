@@ -106,7 +106,11 @@ class Measurement {
   /// `row` gets the errors of each setting.
   void measure(json row, const HeightField& field, const std::vector<Texel>& texels,
                const std::vector<Channels>& truth) const {
-    for (const Setting& setting : settings_) {
+    measure(std::move(row), field, texels, truth, settings_);
+  }
+  static void measure(json row, const HeightField& field, const std::vector<Texel>& texels,
+                      const std::vector<Channels>& truth, const std::vector<Setting>& settings) {
+    for (const Setting& setting : settings) {
       const SsbumpWeights weights = generate(field, setting.options);
       json& errors = row["settings"][setting.name] = as_json(errors_of(picked(weights, texels), truth));
       errors["azimuths"] = weights.azimuths;
@@ -134,14 +138,19 @@ class Measurement {
     measure({{"part", "rays"}, {"map", map.name}, {"truths_apart", as_json(apart)}}, field, texels, truth);
   }
 
+  /// With a finer error as well: what is asked for here is finer, too.
   void against_closed_form(const ClosedForm& form) const {
+    Setting fine{"--error 1e-4", {}};
+    fine.options.error = 1e-4;
+    std::vector<Setting> settings = settings_;
+    settings.insert(settings.begin() + 1, fine);
     const std::vector<Texel> texels{form.texel};
     const std::vector<Channels> truth{form.weights};
     measure({{"part", "forms"},
              {"map", form.name},
              {"ambient", form.weights[SsbumpWeights::ambient]},
              {"truth", as_json(errors_of(by_horizons(form.field, texels, arguments_.azimuths), truth))}},
-            form.field, texels, truth);
+            form.field, texels, truth, settings);
   }
 
   /// Half the map on, and back again.
