@@ -108,45 +108,56 @@ class GroupSweep {
   /// Steps `from` to `to` of the block at `step` are wanted.
   template <int Sign>
   void block(int step, int from, int to) {
-    Tile near, raised{}, across;
-    for (int i = 0; i < group_.count(); ++i) {
-      const int at = step + i, line = at >= from && at < to ? group_.texel_line(at) : 0;
-      V slope = hn::Zero(d), rise = slope;
-      if (at >= from && at < to && group_.wanted(line)) look_near<Sign>(slope, rise, at, line);
-      hn::Store(slope, d, near.row(i));
-      hn::Store(rise, d, raised.row(i));
+    Tile &near = tiles_[0], &texels = tiles_[1], &straight = tiles_[2];
+    Tile &texels_by_line = tiles_[3], &straight_by_line = tiles_[4];
+    for (int at = from; at < to; ++at) {
+      const int line = group_.texel_line(at), i = at - step;
+      if (group_.wanted(line)) look_near<Sign>(at, line, near.row(i), texels.row(i), straight.row(i));
     }
-    transpose(d, raised.row(0), Tile::pitch, across.row(0), Tile::pitch);
-    Tile& seen = raised;
+    transpose(d, texels.row(0), Tile::pitch, texels_by_line.row(0), Tile::pitch);
+    transpose(d, straight.row(0), Tile::pitch, straight_by_line.row(0), Tile::pitch);
+    Tile &far_by_line = texels, &far = straight;
     for (int lane = 0; group_.has(lane); ++lane) {
-      const LineBlock<Sign, D> block(d, heights_.line(lane) + group_.pad(), step, group_.ahead(),
-                                     job_.reciprocals);
-      const V eye = hn::Add(hn::Load(d, across.row(lane)), block.heights());
-      const V slope = block.look_and_push(scratch_.hulls[static_cast<std::size_t>(lane)], eye);
-      hn::Store(slope, d, seen.row(lane));
+      const float* const line = heights_.line(lane) + group_.pad();
+      const LineBlock<Sign, D> block(d, line, step, group_.ahead(), job_.reciprocals);
+      const V texel = hn::Load(d, texels_by_line.row(lane));
+      const V beside =
+          smaller_of_like_sign(hn::Sub(hn::LoadU(d, line + step), texel),
+                               hn::Sub(block.heights(), hn::Load(d, straight_by_line.row(lane))));
+      const V slope =
+          block.look_and_push(scratch_.hulls[static_cast<std::size_t>(lane)], hn::Add(texel, beside));
+      hn::Store(slope, d, far_by_line.row(lane));
     }
-    transpose(d, seen.row(0), Tile::pitch, across.row(0), Tile::pitch);
+    transpose(d, far_by_line.row(0), Tile::pitch, far.row(0), Tile::pitch);
     const V per_step = hn::Set(d, azimuth_.per_step);
     for (int at = from; at < to; ++at) {
-      const V slope = hn::Max(hn::Load(d, near.row(at - step)), hn::Load(d, across.row(at - step)));
-      const int line = group_.texel_line(at);
-      if (group_.wanted(line)) put<Sign>(hn::Mul(slope, per_step), at, line);
+      const int line = group_.texel_line(at), i = at - step;
+      if (!group_.wanted(line)) continue;
+      const V slope = hn::Max(hn::Load(d, near.row(i)), hn::Load(d, far.row(i)));
+      put<Sign>(hn::Mul(slope, per_step), at, line);
     }
   }
 
-  /// The slope to what is near, and how high over the line's first point an eye is that looks at the line.
-  /// The line may pass up to half a texel beside the texel's centre: its points are seen from as much higher
-  /// up as the first of them is higher than straight ahead, or planes would stand in their own light.
+  /// A line may pass up to half a texel beside the texel's centre. Its points are seen from as much higher up
+  /// as the line is higher than the texel, or planes would stand in their own light; but where that differs
+  /// between the texel and the first of the points, as at cliffs, from as little higher as there is.
+  static V smaller_of_like_sign(V a, V b) {
+    const V smaller = hn::IfThenElse(hn::Lt(hn::Abs(a), hn::Abs(b)), a, b);
+    return hn::IfThenElseZero(hn::Gt(hn::Mul(a, b), hn::Zero(d)), smaller);
+  }
+
+  /// Of the texels at a step: the slope to what is near, their heights, and those straight ahead of them,
+  /// where the first point of the line is.
   template <int Sign>
-  void look_near(V& slope, V& rise, int step, int line) const {
+  void look_near(int step, int line, float* slope, float* texels, float* straight) const {
     prefetch<Sign>(step, line);
     const Azimuth::Way& way = azimuth_.ways[Sign > 0 ? 0 : 1];
     const float* const here = grid_.at(step, line);
     const float* const beyond = here + way.beyond.at;
     const V texel = hn::LoadU(d, here), a = hn::LoadU(d, beyond), b = hn::LoadU(d, beyond + way.side);
-    const V straight = hn::MulAdd(hn::Sub(b, a), hn::Set(d, way.beyond.part), a);
-    slope = HWY_NAMESPACE::look_near(d, way, here, texel);
-    rise = hn::Sub(texel, straight);
+    hn::Store(HWY_NAMESPACE::look_near(d, way, here, texel), d, slope);
+    hn::Store(texel, d, texels);
+    hn::Store(hn::MulAdd(hn::Sub(b, a), hn::Set(d, way.beyond.part), a), d, straight);
   }
 
   /// Each step is in another page, which no processor foresees.
@@ -185,6 +196,7 @@ class GroupSweep {
   LineGroup group_;
   SampledLines<D> lines_;
   LineHeights heights_;
+  std::array<Tile, 5> tiles_{};
 };
 
 void find_outstanding_here(const SweepJob& job, int group, SweepScratch& scratch) {
