@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -122,9 +123,9 @@ class HorizonRows {
              SweepTarget& target, const std::function<void()>& say) {
     lay_heights(grid, field_.heights, by_columns, most_near_rows_, heights_);
     target.planes = power_ == 1 ? SsbumpWeights::channels - 1 : SsbumpWeights::channels;
-    target.clear();
+    target.make_room();
     sines_.make_room(target);
-    const Reciprocals reciprocals(farthest_sight(grid));
+    const Reciprocals& reciprocals = reciprocals_to(farthest_sight(grid));
     SweepLines lines;
     for (std::size_t first = 0; first < azimuths.size(); first += HorizonSines::azimuths) {
       const std::size_t count = std::min(azimuths.size() - first, std::size_t{HorizonSines::azimuths});
@@ -142,8 +143,14 @@ class HorizonRows {
                near_rows});
         say();
       }
-      tbb::parallel_for(0, target.steps(), [&](int step) { add_seen(target, sines_, some, step); });
+      tbb::parallel_for(0, target.steps(),
+                        [&](int step) { add_seen(target, sines_, some, step, first == 0); });
     }
+  }
+
+  const Reciprocals& reciprocals_to(int farthest) {
+    if (!reciprocals_ || reciprocals_->farthest() != farthest) reciprocals_.emplace(farthest);
+    return *reciprocals_;
   }
 
   void sweep(const SweepJob& job) {
@@ -163,6 +170,7 @@ class HorizonRows {
   LargeVector<float> heights_;  // of the grid in use
   SweepTarget rows_, columns_;
   HorizonSines sines_;
+  std::optional<Reciprocals> reciprocals_;
   tbb::enumerable_thread_specific<SweepScratch> scratch_;
 };
 

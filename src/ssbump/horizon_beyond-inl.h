@@ -73,17 +73,13 @@ class BorderView {
     }
   }
 
-  /// The first block takes in the nearest points behind the border, not the hull before it.
-  [[nodiscard]] bool left_out(int step) const {
-    return Sign > 0 ? step < group_.end() + group_.ahead() : step >= -group_.ahead();
-  }
   /// Of what is not left out.
   [[nodiscard]] float highest(int at, int periods) const {
-    if (periods > 1) return job_.lines.highest[static_cast<std::size_t>(at)];
-    float top = no_height;
-    for (const LinePoint& point : job_.lines.outstanding[static_cast<std::size_t>(at)])
-      if (!left_out(point.at + Sign * group_.period())) top = std::max(top, point.height);
-    return top;
+    const SweepLines& lines = job_.lines;
+    const std::vector<float>& highest = periods > 1 ? lines.highest
+                                        : Sign > 0  ? lines.highest_but_start
+                                                    : lines.highest_but_end;
+    return highest[static_cast<std::size_t>(at)];
   }
 
   /// What is higher than `record`, from far to near, and not left out.
@@ -94,7 +90,7 @@ class BorderView {
     for (std::size_t i = 0; i < count; ++i) {
       const LinePoint& point = points[Sign > 0 ? count - 1 - i : i];
       const int step = point.at + Sign * periods * group_.period();
-      if (left_out(step)) return;
+      if (group_.template left_out<Sign>(step)) return;
       if (point.height > record) hull.push({step, point.height});
     }
   }

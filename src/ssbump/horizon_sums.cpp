@@ -49,11 +49,12 @@ HWY_INLINE V tabled(const float* table, V sine) {
 }
 
 void add_linear_here(SweepTarget& target, const HorizonSines& all, std::span<const Azimuth> azimuths,
-                     int step) {
+                     int step, bool are_first) {
   const std::size_t plane = target.plane(), row = static_cast<std::size_t>(step) * target.pitch();
   for (std::size_t i = row; i < row + target.pitch(); i += hn::Lanes(d)) {
     std::array<V, 4> sums;
-    for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = hn::LoadU(d, &target.sums[c * plane + i]);
+    for (std::size_t c = 0; c < sums.size(); ++c)
+      sums[c] = are_first ? hn::Zero(d) : hn::LoadU(d, &target.sums[c * plane + i]);
     const std::uint16_t* sines = &all.values[i];
     for (const Azimuth& azimuth : azimuths) {
       for (const Azimuth::Way& way : azimuth.ways) {
@@ -66,12 +67,12 @@ void add_linear_here(SweepTarget& target, const HorizonSines& all, std::span<con
 }
 
 void add_tabled_here(SweepTarget& target, const HorizonSines& all, std::span<const Azimuth> azimuths,
-                     int step) {
+                     int step, bool are_first) {
   constexpr std::size_t entries = AzimuthLobes::table_steps + 2;
   const std::size_t plane = target.plane(), row = static_cast<std::size_t>(step) * target.pitch();
   for (std::size_t c = 0; c < SsbumpWeights::channels; ++c) {
     for (std::size_t i = row; i < row + target.pitch(); i += hn::Lanes(d)) {
-      V sum = hn::LoadU(d, &target.sums[c * plane + i]);
+      V sum = are_first ? hn::Zero(d) : hn::LoadU(d, &target.sums[c * plane + i]);
       const std::uint16_t* sines = &all.values[i];
       for (const Azimuth& azimuth : azimuths) {
         for (const Azimuth::Way& way : azimuth.ways) {
@@ -100,11 +101,12 @@ HWY_EXPORT(add_tabled_here);
 
 }  // namespace
 
-void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step) {
+void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step,
+              bool are_first) {
   if (target.planes == SsbumpWeights::channels)
-    HWY_DYNAMIC_DISPATCH(add_tabled_here)(target, sines, azimuths, step);
+    HWY_DYNAMIC_DISPATCH(add_tabled_here)(target, sines, azimuths, step, are_first);
   else
-    HWY_DYNAMIC_DISPATCH(add_linear_here)(target, sines, azimuths, step);
+    HWY_DYNAMIC_DISPATCH(add_linear_here)(target, sines, azimuths, step, are_first);
 }
 
 }  // namespace rnmbake

@@ -25,7 +25,7 @@ struct SweepTarget {
   }
   [[nodiscard]] int steps() const { return last_step - first_step; }
   [[nodiscard]] std::size_t plane() const { return pitch() * static_cast<std::size_t>(steps()); }
-  void clear() { sums.assign(plane() * static_cast<std::size_t>(planes), 0.0F); }
+  void make_room() { sums.resize(plane() * static_cast<std::size_t>(planes)); }
 };
 
 /// The sine of a horizon's elevation as a 16-bit number: this one stands for 1.
@@ -43,7 +43,9 @@ struct HorizonSines {
   }
 };
 
-/// Adds up what a step's texels see over the horizons of these azimuths. `step`: of the target.
-void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step);
+/// Adds up what a step's texels see over the horizons of these azimuths, from 0 on where they are the first.
+/// `step`: of the target.
+void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step,
+              bool are_first);
 
 }  // namespace rnmbake

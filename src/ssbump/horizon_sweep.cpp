@@ -56,9 +56,14 @@ class GroupSweep {
       if (end < middle)
         append_hull(d, line, end, middle - 1, least_bulge * grid_.range, points, scratch_.parts);
       for (int i = middle; i < group_.period(); ++i) points.push_back({i, line[i]});
-      float top = points[0].height;
-      for (const LinePoint& point : points) top = std::max(top, point.height);
-      job_.lines.highest[at] = top;
+      float& but_start = job_.lines.highest_but_start[at] = no_height;
+      float& but_end = job_.lines.highest_but_end[at] = no_height;
+      for (const LinePoint& point : points) {
+        if (!group_.left_out<1>(point.at + group_.period())) but_start = std::max(but_start, point.height);
+        if (!group_.left_out<-1>(point.at - group_.period())) but_end = std::max(but_end, point.height);
+      }
+      float& highest = job_.lines.highest[at] = no_height;
+      for (const LinePoint& point : points) highest = std::max(highest, point.height);
     }
   }
 
@@ -264,7 +269,8 @@ void begin_lines(SweepLines& lines, const HorizonGrid& grid, const Azimuth& azim
     lines.count = grid.lines.size + most - least;
   }
   if (grid.steps.repeats()) {
-    lines.highest.resize(static_cast<std::size_t>(lines.count));
+    for (std::vector<float>* highest : {&lines.highest, &lines.highest_but_start, &lines.highest_but_end})
+      highest->resize(static_cast<std::size_t>(lines.count));
     lines.outstanding.resize(lines.highest.size());
   }
 }

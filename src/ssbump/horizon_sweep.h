@@ -18,7 +18,8 @@ namespace rnmbake {
 struct SweepLines {
   int first = 0, count = 0;
   std::vector<std::vector<LinePoint>> outstanding;  // steps rise
-  std::vector<float> highest;
+  std::vector<float> highest, highest_but_start,
+      highest_but_end;  // without what the next line's block takes in
   float highest_of_all = 0;
 
   [[nodiscard]] bool valid(int line) const { return line >= first && line < first + count; }

@@ -26,6 +26,13 @@ class LineGroup {
   /// How far the lines' heights are needed past both ends: whole blocks.
   [[nodiscard]] int pad() const { return (ahead() + 2 * count_ - 1) / count_ * count_; }
 
+  /// Of what is looked at towards rising (Sign 1) or falling steps (-1), the first block takes in the nearest
+  /// points behind the border; the hull before it does without.
+  template <int Sign>
+  [[nodiscard]] bool left_out(int step) const {
+    return Sign > 0 ? step < end() + ahead() : step >= -ahead();
+  }
+
   /// The texel that lane 0 stands on at a step; negative where other lanes have come to the next period.
   [[nodiscard]] int texel_line(int step) const {
     const GridAxis& lines = job_.grid.lines;
