@@ -1,7 +1,7 @@
 # format.sh - the committed C++ style (.clang-format, version 14). Sourced by ./dev.
 
 cpp_files() {
-  find src tests -name '*.h' -o -name '*.cpp' | sort
+  find src tests bench -name '*.h' -o -name '*.cpp' | sort
 }
 
 format() {

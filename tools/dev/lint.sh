@@ -5,7 +5,7 @@ source tools/dev/format.sh
 tidy_files() {
   if [[ ${1:-} == --changed ]]; then
     { git diff --name-only --diff-filter=d main; git ls-files --others --exclude-standard; } |
-      grep -E '^(src|tests)/.*\.cpp$' | sort -u || true
+      grep -E '^(src|tests|bench)/.*\.cpp$' | sort -u || true
   else
     cpp_files | grep '\.cpp$'
   fi
