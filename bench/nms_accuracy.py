@@ -3,13 +3,13 @@
     nms_accuracy.py [--bench build/release/bench_nms] [--heightmaps ../shared/heightmaps]
 """
 import argparse
-import re
 import subprocess
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+import document
+from measure import ROOT
+
 DOCUMENT = ROOT / "docs/normal-mapping-shadows.md"
-BEGIN, END = "<!-- figures: begin -->\n", "<!-- figures: end -->"
 
 
 def main():
@@ -23,12 +23,7 @@ def main():
     else:
         print(f"{options.heightmaps} is not there: generated surfaces only")
     tables = subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
-    old = DOCUMENT.read_text(encoding="utf-8")
-    new, found = re.subn(f"{BEGIN}.*{END}", lambda _: BEGIN + tables + END, old, flags=re.DOTALL)
-    if found != 1:
-        raise SystemExit(f"{DOCUMENT} has no place for the figures")
-    DOCUMENT.write_text(new, encoding="utf-8")
-    print(f"wrote {DOCUMENT.relative_to(ROOT)}")
+    document.renew(DOCUMENT, tables)
 
 
 if __name__ == "__main__":

@@ -7,13 +7,13 @@ Other arguments go on to the bench. --measured takes what an earlier run printed
 """
 import argparse
 import json
-import re
 import subprocess
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+import document
+from measure import ROOT
+
 DOCUMENT = ROOT / "docs/ssbump-methods.md"
-BEGIN, END = "<!-- figures: begin -->\n", "<!-- figures: end -->"
 RMSE, LARGEST, FORM, SEAM = 1e-3, 1e-2, 1e-4, 1e-5  # asked for
 BORDERS = {"wrap": "Wrapped", "none": "Borders that go on"}
 
@@ -128,12 +128,7 @@ def main():
     options, others = parser.parse_known_args()
     printed = options.measured.read_text(encoding="utf-8") if options.measured else measure(options, others)
     figures = Figures([json.loads(line) for line in printed.splitlines()])
-    old = DOCUMENT.read_text(encoding="utf-8")
-    new, found = re.subn(f"{BEGIN}.*{END}", lambda _: BEGIN + figures.text() + END, old, flags=re.DOTALL)
-    if found != 1:
-        raise SystemExit(f"{DOCUMENT} has no place for the figures")
-    DOCUMENT.write_text(new, encoding="utf-8")
-    print(f"wrote {DOCUMENT.relative_to(ROOT)}")
+    document.renew(DOCUMENT, figures.text())
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // ssbump/elevation-inl.h - what is seen over a horizon along one azimuth, for some horizons at once.
 //
-// Compiled for several instruction sets by horizon_sweep.cpp; hence the guard that opens again for each.
+// Compiled for several instruction sets by horizon_sweep.cpp and horizon_sums.cpp; hence the guard that opens
+// again for each.
 #if defined(RNMBAKE_SSBUMP_ELEVATION_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RNMBAKE_SSBUMP_ELEVATION_INL_H
 #undef RNMBAKE_SSBUMP_ELEVATION_INL_H
