@@ -13,6 +13,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kLargestTile = 8;
 constexpr double kFewestTiles = 16;
+constexpr double kFewPaths = 4;  // that make up the noise of a mean: too few to tell it
 
 int tile_size(const FloatImage& image) {
   const auto size = static_cast<int>(std::sqrt(double(image.texels()) / kFewestTiles));
@@ -44,6 +45,21 @@ double student_quantile(double freedom) {
 double ratio(double part, double whole) {
   if (part == 0) return 0;  // black on both sides is no error
   return part / whole;
+}
+
+/// 0 for 0, where the numbers to be scaled are 0, too, or already infinite.
+double inverse(double value) {
+  return value == 0 ? 0 : 1 / value;
+}
+
+double sum_of_squares(double a, double b) {
+  return a * a + b * b;
+}
+
+/// The square of the value in an interval that is nearest to 0.
+double least_square(const Statistic& statistic) {
+  const double nearest = statistic.low95 > 0 ? statistic.low95 : statistic.high95 < 0 ? statistic.high95 : 0;
+  return nearest * nearest;
 }
 
 /// The square root of an estimate that may have come out below 0.
@@ -92,11 +108,17 @@ void PictureComparison::add(const ComparedPicture& candidate, const ComparedPict
   const int size = tile_size(picture);
   const int columns = (picture.width() + size - 1) / size, rows = (picture.height() + size - 1) / size;
   std::vector<Tile> tiles(static_cast<std::size_t>(columns) * rows);
+  LargestNoise largest;
   for (std::size_t texel = 0; texel < picture.texels(); ++texel) {
     if (!counts(counted, texel)) continue;
     const int x = static_cast<int>(texel % picture.width()), y = static_cast<int>(texel / picture.width());
-    add_texel(candidate, reference, x, y, tiles[static_cast<std::size_t>(y / size) * columns + x / size]);
+    add_texel(candidate, reference, x, y, tiles[static_cast<std::size_t>(y / size) * columns + x / size],
+              largest);
   }
+  const bool comparable = candidate.paths > 0 && reference.paths > 0;
+  const double share = comparable ? reference.paths / candidate.paths : 0;  // 0: neither tells of the other
+  rare_.take({std::max(largest.candidate, largest.reference * share),
+              std::max(largest.reference, share > 0 ? largest.candidate / share : 0), largest.squared_error});
   std::ranges::copy_if(tiles, std::back_inserter(tiles_), [](const Tile& tile) { return tile.values > 0; });
   candidate_noise_known_ = candidate_noise_known_ && candidate.knows_noise();
   reference_noise_known_ = reference_noise_known_ && reference.knows_noise();
@@ -104,11 +126,12 @@ void PictureComparison::add(const ComparedPicture& candidate, const ComparedPict
 }
 
 void PictureComparison::add_texel(const ComparedPicture& candidate, const ComparedPicture& reference, int x,
-                                  int y, Tile& tile) {
+                                  int y, Tile& tile, LargestNoise& largest) {
   const int channels = candidate.value->channels();
   const std::size_t first = (static_cast<std::size_t>(y) * candidate.value->width() + x) * channels;
   Tile texel;
   double square = 0, candidate_variance = 0, reference_variance = 0;
+  LargestNoise noise;
   for (std::size_t index = first; index < first + channels; ++index) {
     const NoisyValue a = noisy_value(candidate, index), r = noisy_value(reference, index);
     const double error = a.value - r.value;
@@ -118,6 +141,8 @@ void PictureComparison::add_texel(const ComparedPicture& candidate, const Compar
     texel.reference += r.value;
     candidate_variance += a.variance;
     reference_variance += r.variance;
+    noise.candidate += std::sqrt(a.variance);
+    noise.reference += std::sqrt(r.variance);
   }
   texel.squared_error = square - candidate_variance - reference_variance;
   if (!std::isfinite(texel.squared_error) || !std::isfinite(texel.reference)) {
@@ -128,6 +153,8 @@ void PictureComparison::add_texel(const ComparedPicture& candidate, const Compar
   if (size > worst_.error) worst_ = {size, x, y, pictures_};
   errors_.push_back(static_cast<float>(size));
   tile += texel;
+  largest = {std::max(largest.candidate, noise.candidate), std::max(largest.reference, noise.reference),
+             std::max(largest.squared_error, std::abs(texel.squared_error))};
   candidate_variance_ += candidate_variance;
   reference_variance_ += reference_variance;
 }
@@ -137,6 +164,7 @@ void PictureComparison::add(const PictureComparison& other) {
     worst_ = other.worst_;
     worst_.picture += pictures_;
   }
+  rare_.take(other.rare_);
   tiles_.insert(tiles_.end(), other.tiles_.begin(), other.tiles_.end());
   errors_.insert(errors_.end(), other.errors_.begin(), other.errors_.end());
   pictures_ += other.pictures_;
@@ -163,10 +191,18 @@ PictureMetrics PictureComparison::metrics() const {
     return ratio(square(s), mean_reference(s) * mean_reference(s));
   };
   result.reference_mean = mean_reference(sum);
-  result.bias = jackknife(sum, bias);
-  result.relative_bias = jackknife(sum, relative_bias);
-  result.rmse = root(jackknife(sum, square));
-  result.relative_rmse = root(jackknife(sum, relative_square));
+  const Reach reach = jackknife(sum, bias);
+  const double down = rare_.down / sum.values, up = rare_.up / sum.values;
+  const double share = inverse(std::abs(result.reference_mean));
+  result.bias = with_rare_path(reach, down, up);
+  result.relative_bias = with_rare_path(jackknife(sum, relative_bias), down * share, up * share);
+  const double rare = std::max(down, up);
+  result.too_noisy = kFewPaths * rare * rare > reach.standard_error * reach.standard_error;
+  // A mean that a rare path may have moved so far is in the mean square, too.
+  const double moved = least_square(with_rare_path(reach, 0, 0)) - least_square(result.bias);
+  const double low = moved + rare_.squared / sum.values;
+  result.rmse = root(with_rare_path(jackknife(sum, square), low, 0));
+  result.relative_rmse = root(with_rare_path(jackknife(sum, relative_square), low * share * share, 0));
 
   std::vector<float> errors = errors_;
   result.p95 = percentile(errors, 0.95);
@@ -183,11 +219,11 @@ PictureMetrics PictureComparison::metrics() const {
 }
 
 /// Leaves out one tile at a time; how much the result moves is what another scatter of tiles would do to it.
-Statistic PictureComparison::jackknife(const Tile& sum,
-                                       const std::function<double(const Tile&)>& estimate) const {
+PictureComparison::Reach PictureComparison::jackknife(
+    const Tile& sum, const std::function<double(const Tile&)>& estimate) const {
   const double value = estimate(sum);
   const double n = double(tiles_.size());
-  if (tiles_.size() < 2) return {value, -kInfinite, kInfinite};
+  if (tiles_.size() < 2) return {value, kInfinite, 1};
   double mean = 0, squares = 0, seen = 0;  // Welford's way: no cancellation
   for (const Tile& tile : tiles_) {
     const double without = estimate(sum - tile);
@@ -196,9 +232,22 @@ Statistic PictureComparison::jackknife(const Tile& sum,
     mean += step / seen;
     squares += step * (without - mean);
   }
-  const double reach = student_quantile(n - 1) * std::sqrt(squares * (n - 1) / n);
-  if (!std::isfinite(reach)) return {value, -kInfinite, kInfinite};
-  return {value, value - reach, value + reach};
+  return {value, std::sqrt(squares * (n - 1) / n), student_quantile(n - 1)};
+}
+
+Statistic PictureComparison::with_rare_path(const Reach& reach, double down, double up) {
+  const auto width = [&](double rare) {
+    return rare + reach.quantile * std::sqrt(sum_of_squares(reach.standard_error, rare));
+  };
+  const double low = width(down), high = width(up);
+  if (!std::isfinite(low + high)) return {reach.value, -kInfinite, kInfinite};
+  return {reach.value, reach.value - low, reach.value + high};
+}
+
+void PictureComparison::RarePath::take(const RarePath& other) {
+  up = std::max(up, other.up);
+  down = std::max(down, other.down);
+  squared = std::max(squared, other.squared);
 }
 
 PictureComparison::Tile& PictureComparison::Tile::operator+=(const Tile& other) {

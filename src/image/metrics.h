@@ -21,6 +21,7 @@ struct ComparedPicture {
   const FloatImage* value = nullptr;
   const FloatImage* second = nullptr;
   const FloatImage* standard_error = nullptr;
+  double paths = 0;  // for each texel, over both halves; 0: not known
 
   [[nodiscard]] bool knows_noise() const { return second != nullptr || standard_error != nullptr; }
 };
@@ -44,6 +45,7 @@ struct PictureMetrics {
   std::size_t max_picture = 0;       // which of the pictures it is in, in the order of add()
   double candidate_noise = 0, reference_noise = 0;  // RMS standard error; 0 where it is not known
   bool candidate_noise_known = false, reference_noise_known = false;  // for every picture
+  bool too_noisy = false;  // a few texels make the mean's noise: its interval is wide, its value says little
 };
 
 /// Pictures (of one object, or all of a scene) compared as one. The intervals come from a jackknife over
@@ -51,6 +53,12 @@ struct PictureMetrics {
 /// within a tile are correlated, as after filtering or with patterns of samples. The squared error is
 /// unbiased: the square of the difference, less the noise's variance on either side; for two halves a1, a2
 /// against r that is (a1 - r)(a2 - r). Percentiles and maximum cannot be freed from noise.
+///
+/// Light that few paths find is missing from most estimates of it, and so is its noise: the intervals of
+/// means reach as far as if one path more had found it, the one that left the most noise (after Fay and
+/// Feuer, "Confidence intervals for directly standardized rates: a method based on the gamma distribution",
+/// 1997). Where the two sides' paths are known, a path that one side found counts for the other one with its
+/// weight there.
 class PictureComparison {
  public:
   /// All pictures and masks have one size. Throws Error(invalid_input) where they do not.
@@ -75,14 +83,31 @@ class PictureComparison {
     std::size_t picture = 0;
   };
 
-  void add_texel(const ComparedPicture& candidate, const ComparedPicture& reference, int x, int y,
-                 Tile& tile);
-  [[nodiscard]] Statistic jackknife(const Tile& sum,
-                                    const std::function<double(const Tile&)>& estimate) const;
+  /// The most that the noise of a single texel may add to the sum of errors, or take from it: one rare path.
+  struct RarePath {
+    double up = 0, down = 0;
+    double squared = 0;  // to the sum of squared errors: where noise meets noise, a few texels make it
+    void take(const RarePath& other);
+  };
+  /// The largest noise of a texel on either side, summed over its channels.
+  struct LargestNoise {
+    double candidate = 0, reference = 0, squared_error = 0;
+  };
+
+  void add_texel(const ComparedPicture& candidate, const ComparedPicture& reference, int x, int y, Tile& tile,
+                 LargestNoise& largest);
+  /// An estimate with half the width of its interval, rare paths not counted.
+  struct Reach {
+    double value = 0, standard_error = 0, quantile = 0;
+  };
+  [[nodiscard]] Reach jackknife(const Tile& sum, const std::function<double(const Tile&)>& estimate) const;
+  /// `down` and `up`: what a rare path may do to the estimate.
+  [[nodiscard]] static Statistic with_rare_path(const Reach& reach, double down, double up);
 
   std::vector<Tile> tiles_;
   std::vector<float> errors_;  // one for each texel
   Worst worst_;
+  RarePath rare_;
   std::size_t pictures_ = 0, non_finite_ = 0;
   double candidate_variance_ = 0, reference_variance_ = 0;  // summed over values
   bool candidate_noise_known_ = true, reference_noise_known_ = true;

@@ -35,14 +35,22 @@ struct Side {
   }
 };
 
+/// For each texel; 0 where the error decided, and the file does not say how many it took.
+double paths_of(const LightmapMetadata& metadata) {
+  return metadata.error > 0 ? 0 : metadata.samples;
+}
+
 /// One object on one side, read.
 struct SideLightmap {
   LoadedLightmap first;
   std::optional<LoadedLightmap> second;
 
   [[nodiscard]] ComparedPicture picture(const std::string& basis) const {
-    ComparedPicture picture{basis_layer(first, basis), nullptr, basis_layer(first, basis, "_stderr")};
-    if (second) picture.second = basis_layer(*second, basis);
+    ComparedPicture picture{basis_layer(first, basis), nullptr, basis_layer(first, basis, "_stderr"),
+                            paths_of(first.metadata)};
+    if (!second) return picture;
+    picture.second = basis_layer(*second, basis);
+    picture.paths += paths_of(second->metadata);
     return picture;
   }
 };

@@ -28,7 +28,9 @@ Statistic mean(const std::vector<Statistic>& all) {
 }
 
 /// Beyond what matters and beyond what chance does to one of some hundred numbers: four standard errors.
-bool is_off(const Statistic& bias) {
+bool is_off(const PictureMetrics& metrics) {
+  if (metrics.too_noisy) return false;
+  const Statistic& bias = metrics.relative_bias;
   const double four_errors = (bias.high95 - bias.low95) / 2 / 1.96 * 4;
   return std::abs(bias.value) > as_good_as_none && std::abs(bias.value) > four_errors;
 }
@@ -67,13 +69,14 @@ Causes causes_of(const std::vector<const BasisDecomposition*>& bases) {
 std::string receiver_finding(const Report& receiver) {
   const ObjectComparison* worst = nullptr;
   double largest = 0;
-  std::size_t off = 0;
+  std::size_t off = 0, too_noisy = 0;
   for (const ObjectComparison& object : receiver.objects) {
     double own = 0;
     for (const BasisMetrics& basis : object.bases) {
-      const Statistic& bias = basis.metrics.relative_bias;
-      if (is_off(bias) && std::abs(bias.value) > std::abs(own)) own = bias.value;
+      const double bias = basis.metrics.relative_bias.value;
+      if (is_off(basis.metrics) && std::abs(bias) > std::abs(own)) own = bias;
     }
+    too_noisy += std::ranges::any_of(object.bases, [](const auto& one) { return one.metrics.too_noisy; });
     if (own == 0) continue;
     ++off;
     if (worst == nullptr || std::abs(own) > std::abs(largest)) worst = &object;
@@ -84,9 +87,14 @@ std::string receiver_finding(const Report& receiver) {
   biases.reserve(receiver.scene.size());
   for (const BasisMetrics& basis : receiver.scene) biases.push_back(basis.metrics.relative_bias);
   const std::string whole = percent(mean(biases), true);
-  if (worst == nullptr) return fmt::format("receiver: no bias beyond the noise ({} over the scene)", whole);
-  return fmt::format("receiver: {} of {} objects have a bias beyond the noise, most of all {} ({:+.1f} %)",
-                     off, receiver.objects.size(), worst->key, 100 * largest);
+  const std::string unsure =
+      too_noisy == 0 ? ""
+                     : fmt::format("; {} of {} objects are too noisy to tell, bake with more samples",
+                                   too_noisy, receiver.objects.size());
+  if (worst == nullptr)
+    return fmt::format("receiver: no bias beyond the noise ({} over the scene){}", whole, unsure);
+  return fmt::format("receiver: {} of {} objects have a bias beyond the noise, most of all {} ({:+.1f} %){}",
+                     off, receiver.objects.size(), worst->key, 100 * largest, unsure);
 }
 
 std::string recipe_finding(const Decomposition& scene) {

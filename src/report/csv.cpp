@@ -10,7 +10,8 @@ namespace {
 constexpr const char* kHeader =
     "object,basis,texels,non_finite,reference_mean,bias,bias_low95,bias_high95,relative_bias,"
     "relative_bias_low95,relative_bias_high95,rmse,rmse_low95,rmse_high95,relative_rmse,relative_rmse_low95,"
-    "relative_rmse_high95,p95,p99,max,max_x,max_y,candidate_noise,reference_noise\r\n";
+    "relative_rmse_high95,p95,p99,max,max_x,max_y,candidate_noise,reference_noise,"
+    "too_noisy\r\n";
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -34,7 +35,7 @@ std::string line(const std::string& object, const BasisMetrics& basis) {
          field(m.reference_mean) + fields(m.bias) + fields(m.relative_bias) + fields(m.rmse) +
          fields(m.relative_rmse) + field(m.p95) + field(m.p99) + field(m.max) +
          fmt::format(",{},{}", m.max_x, m.max_y) + field(m.candidate_noise, m.candidate_noise_known) +
-         field(m.reference_noise, m.reference_noise_known) + "\r\n";
+         field(m.reference_noise, m.reference_noise_known) + (m.too_noisy ? ",1\r\n" : ",0\r\n");
 }
 
 }  // namespace

@@ -53,6 +53,10 @@ Place worst_object(const Report& report) {
 
 std::string bias_clause(const Report& report, const BasisMetrics& basis) {
   const Statistic& bias = basis.metrics.relative_bias;
+  if (basis.metrics.too_noisy) {
+    return fmt::format("{} is too noisy to tell a bias against {} ({} in {}; bake with more samples)",
+                       report.candidate_label, report.reference_label, percent(bias, true), basis.name);
+  }
   const bool could_be_none = bias.low95 <= 0 && bias.high95 >= 0;
   if (could_be_none) {
     return fmt::format(

@@ -39,6 +39,7 @@ json describe(const BasisMetrics& basis) {
           {"p95", m.p95},
           {"p99", m.p99},
           {"max", {{"error", m.max}, {"x", m.max_x}, {"y", m.max_y}}},
+          {"too_noisy", m.too_noisy},
           {"noise",
            {{"candidate", noise(m.candidate_noise, m.candidate_noise_known)},
             {"reference", noise(m.reference_noise, m.reference_noise_known)}}}};

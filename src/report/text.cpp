@@ -41,7 +41,7 @@ Row row_of(const std::string& object, const BasisMetrics& basis, const std::stri
   return {object,
           basis.name,
           std::to_string(m.texels),
-          percent(m.relative_bias, true),
+          percent(m.relative_bias, true) + (m.too_noisy ? ", too noisy to tell" : ""),
           percent(m.relative_rmse, false),
           share(m.p95, m.reference_mean),
           share(m.p99, m.reference_mean),

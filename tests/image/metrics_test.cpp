@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
 namespace {
@@ -121,6 +123,79 @@ TEST(Metrics, NothingButNoiseLeavesNoError) {
   EXPECT_GE(with_zero, kFewest);  // one-sided: an interval wholly below 0 reads [0, 0]
   EXPECT_GE(bias_with_zero, kFewest);
   EXPECT_LE(bias_with_zero, kMost);
+}
+
+/// Light that few paths find: what a texel gets of it in all, and how one path's share varies.
+struct RareLight {
+  double paths = 0;      // that find it, over the whole picture, on the candidate's side
+  double log_sigma = 0;  // of a path's share, which is log-normal
+
+  static constexpr double mean = 1;
+
+  /// Adds what `times` as many paths as the candidate's bring to a picture of one channel, the noise's
+  /// variance to `variance`.
+  void shine(double times, std::mt19937& random, FloatImage& picture, FloatImage* variance) const {
+    std::poisson_distribution<int> found(paths * times);
+    std::lognormal_distribution<double> share(-log_sigma * log_sigma / 2, log_sigma);
+    std::uniform_int_distribution<std::size_t> place(0, picture.texels() - 1);
+    const int count = found(random);
+    for (int i = 0; i < count; ++i) {
+      const std::size_t texel = place(random);
+      const auto value = float(mean * double(picture.texels()) / (paths * times) * share(random));
+      picture.data()[texel] += value;
+      if (variance != nullptr) variance->data()[texel] += value * value;
+    }
+  }
+};
+
+struct RareHits {
+  int bias = 0, relative_bias = 0, rmse = 0, too_noisy = 0;
+};
+
+/// Two halves that have found the light against a reference of `times` as many paths; the true error is 0.
+RareHits count_rare_hits(int size, const RareLight& light, double times, int seeds) {
+  RareHits hits;
+  constexpr float kEven = 0.2F;
+  for (int seed = 0; seed < seeds; ++seed) {
+    std::mt19937 random(seed);
+    FloatImage first = plain(size, kEven, 1), second = first, reference = first, error = plain(size, 0, 1);
+    add_noise(first, 0.05, random);
+    add_noise(second, 0.05, random);
+    light.shine(0.5, random, first, nullptr);
+    light.shine(0.5, random, second, nullptr);
+    light.shine(times, random, reference, &error);
+    for (float& value : error.data()) value = std::sqrt(value);
+    const PictureMetrics seen =
+        compare({&first, &second, nullptr, 64}, {&reference, nullptr, &error, 64 * times});
+    hits.bias += holds(seen.bias, 0);
+    hits.relative_bias += holds(seen.relative_bias, 0);
+    hits.rmse += holds(seen.rmse, 0);
+    hits.too_noisy += seen.too_noisy;
+  }
+  return hits;
+}
+
+TEST(Metrics, IntervalsHoldTheTruthHoweverFewPathsFoundTheLight) {
+  constexpr int kMany = 200;
+  for (const int size : {16, 32}) {
+    for (const double times : {2., 8.}) {
+      for (const double sigma : {0., 1., 1.5}) {
+        for (const double paths : {1., 3., 10., 30., 100., 1000.}) {
+          const RareHits hits = count_rare_hits(size, {paths, sigma}, times, kMany);
+          const std::string light = fmt::format(
+              "{} paths, log sigma {}, {} times as many in the reference, {}^2", paths, sigma, times, size);
+          EXPECT_GE(hits.bias, kMany * kFewest / 100) << light;
+          EXPECT_GE(hits.relative_bias, kMany * kFewest / 100) << light;
+          EXPECT_GE(hits.rmse, kMany * kFewest / 100) << light;
+        }
+      }
+    }
+  }
+}
+
+TEST(Metrics, SaysWhereTooFewPathsFoundTheLight) {
+  EXPECT_GE(count_rare_hits(32, {3, 1}, 2, kSeeds).too_noisy, kFewest);
+  EXPECT_EQ(count_rare_hits(32, {10000, 1}, 2, kSeeds).too_noisy, 0);
 }
 
 TEST(Metrics, WithoutNoiseEverythingIsExact) {

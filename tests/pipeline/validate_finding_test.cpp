@@ -35,6 +35,14 @@ TEST(ValidateFinding, NoiseIsNoBias) {
   EXPECT_EQ(said.rfind("receiver: no bias beyond the noise", 0), 0U) << said;
 }
 
+TEST(ValidateFinding, WhatIsTooNoisyToTellIsNoBiasAndIsCounted) {
+  ObjectComparison noisy = object("a", statistic(-0.2, 0.01));
+  noisy.bases.front().metrics.too_noisy = true;
+  const std::string said = receiver_finding(report({object("b", statistic(0, 0.001)), noisy}));
+  EXPECT_EQ(said.rfind("receiver: no bias beyond the noise", 0), 0U) << said;
+  EXPECT_TRUE(said.ends_with("; 1 of 2 objects are too noisy to tell, bake with more samples")) << said;
+}
+
 TEST(ValidateFinding, NamesTheWorstObject) {
   const std::string said = receiver_finding(
       report({object("a", statistic(0.02, 0.001)), object("b", statistic(-0.5, 0.1)), object("c", {})}));

@@ -71,6 +71,7 @@ class ObjectTable {
     basis.replaceChildren(metrics.basis);
     texels.replaceChildren(thousands(metrics.texels));
     bias.replaceChildren(el('span', {title: interval(metrics.relative_bias, signedPercent)}, signedPercent(metrics.relative_bias.value)),
+      ...(metrics.too_noisy ? [el('span', {class: 'badge'}, 'too noisy to tell')] : []),
       miniInterval(metrics.relative_bias, reach));
     rmse.replaceChildren(el('span', {title: interval(metrics.relative_rmse, percent)}, percent(metrics.relative_rmse.value)));
     p95.replaceChildren(percent(relativeTo(metrics.p95, metrics)));
@@ -175,7 +176,7 @@ function basisTable(object) {
   return el('div', {class: 'scroll'}, el('table', {class: 'numbers'},
     el('thead', {}, el('tr', {}, head.map(name => el('th', {scope: 'col'}, name)))),
     el('tbody', {}, object.bases.map(one => el('tr', {}, el('th', {scope: 'row'}, one.basis),
-      [signedPercent(one.relative_bias.value), interval(one.relative_bias, signedPercent), percent(one.relative_rmse.value),
+      [signedPercent(one.relative_bias.value) + (one.too_noisy ? ', too noisy to tell' : ''), interval(one.relative_bias, signedPercent), percent(one.relative_rmse.value),
         interval(one.relative_rmse, percent), percent(relativeTo(one.p95, one)), percent(relativeTo(one.p99, one)),
         percent(relativeTo(one.max.error, one)), `${one.max.x}, ${one.max.y}`].map(text => el('td', {}, text)))))));
 }
