@@ -40,6 +40,11 @@ add_test(NAME manifest.schema
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
 set_tests_properties(manifest.schema PROPERTIES LABELS blender TIMEOUT 1200)
 
+add_test(NAME saved_scene.check
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)
+set_tests_properties(saved_scene.check PROPERTIES LABELS blender TIMEOUT 1200)
+
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
 target_link_libraries(sample_report PRIVATE report rnm_warnings)

@@ -87,14 +87,23 @@ def first_node(socket):
 
 def remember_camera(scene):
     """Before anything else: surveys change the resolution, which decides what a camera sees."""
-    scene[CAMERA] = json.dumps(describe_camera(scene))
+    ob = scene.camera if is_plain_camera(scene.camera) else next(filter(is_plain_camera, scene.objects), None)
+    why = "no camera is the active one" if scene.camera is None else f"the active one, '{scene.camera.name}', is no plain one"
+    note = f"camera '{ob.name}': views look through it, since {why}" if ob != scene.camera and ob else ""
+    scene[CAMERA] = json.dumps({"camera": describe_camera(scene, ob) if ob else None, "note": note})
 
 
-def describe_camera(scene):
-    """Camera of scene/exchange.h; None for a scene without one and for panoramas."""
-    ob = scene.camera or next((ob for ob in scene.objects if ob.type == "CAMERA"), None)
-    if ob is None or ob.type != "CAMERA" or ob.data.type == "PANO":
-        return None
+def remembered_camera(scene):
+    """(Camera of scene/exchange.h, None for a scene without a plain one; what to say of the choice, or "")."""
+    known = json.loads(scene.get(CAMERA, '{"camera": null, "note": ""}'))
+    return known["camera"], known["note"]
+
+
+def is_plain_camera(ob):
+    return ob is not None and ob.type == "CAMERA" and ob.data.type != "PANO"
+
+
+def describe_camera(scene, ob):
     ob = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
     corners = ob.data.view_frame(scene=scene)
     left, right = min(c.x for c in corners), max(c.x for c in corners)

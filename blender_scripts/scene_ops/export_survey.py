@@ -5,7 +5,7 @@ import bpy
 
 from scene_ops import export_world
 from scene_ops.export_looks import Looks, outside_of
-from scene_ops.export_notes import CAMERA, OUTSIDE
+from scene_ops.export_notes import OUTSIDE, remembered_camera
 from scene_ops.survey import Surveyor
 
 
@@ -58,9 +58,11 @@ class ExportSurveyor(Surveyor):
             pictures.append(picture)
         self.tell("world", what)
         self.outside += json.loads(scene.get(OUTSIDE, "[]"))
+        camera, note = remembered_camera(scene)
+        self.warnings += [note] if note else []
         self.exchange = {
             "pictures": pictures, "picture_uvs": self.looks.picture_uvs, "normal_maps": self.looks.normal_maps,
             "looks": self.looks.looks, "object_looks": self.object_looks, "unlit": self.unlit, "world": world,
-            "camera": json.loads(scene.get(CAMERA, "null")), "outside": self.outside,
+            "camera": camera, "outside": self.outside,
         }
         super().finish()

@@ -72,7 +72,7 @@ def _visit(depsgraph, scene):
         evaluated = instance.object
         shared = evaluated.data.as_pointer()
         if shared not in meshes:
-            meshes[shared] = _copy_mesh(evaluated)
+            meshes[shared] = copy_mesh(evaluated)
         surface.data = meshes[shared]
         surface.materials = [_original(override or slot.material) for slot in evaluated.material_slots]
         scene.surfaces.append(surface)
@@ -81,7 +81,7 @@ def _visit(depsgraph, scene):
             _add_other(instance, scene)
 
 
-def _copy_mesh(ob):
+def copy_mesh(ob):
     mesh = bpy.data.meshes.new_from_object(ob)
     if ob.original.type == "META":  # their normals are the field's own and get lost in a copy
         if hasattr(mesh, "use_auto_smooth"):  # <= 4.0

@@ -1,9 +1,8 @@
 """A flat scene: one plain object for each thing that a render shows, under the name that it had."""
-import hashlib
-
 import bpy
 
 from scene_ops.keys import KEY_PROPERTY, NAME_PROPERTY
+from scene_ops.names import fitting
 
 # These use objects without depending on where they are.
 CONTAINERS = (bpy.types.Collection, bpy.types.Scene, bpy.types.Screen, bpy.types.WorkSpace, bpy.types.WindowManager)
@@ -50,9 +49,7 @@ def _make_object(item, pivot):
 
 def free_name(name):
     """The name itself, or with a hash where it is longer than names can be. What else has it gives way."""
-    if len(name.encode()) > 63:
-        digest = hashlib.sha256(name.encode()).hexdigest()[:8]
-        name = name.encode()[:50].decode(errors="ignore") + "~" + digest
+    name = fitting(name)
     other = next((ob for ob in bpy.data.objects if ob.name == name and not ob.library), None) \
         if name in bpy.data.objects else None
     if other is not None:

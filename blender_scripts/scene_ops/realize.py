@@ -4,6 +4,8 @@ import bpy
 from core.task import Refusal
 from scene_ops import light_linking
 from scene_ops.keys import Keys, instancer_of, shown_surfaces
+from scene_ops.lambert_collect import Shown, copy_mesh
+from scene_ops.names import fitting
 from scene_ops.survey import with_render_depsgraph
 
 PIVOT = "rnmbake pivot"
@@ -34,68 +36,92 @@ def can_be_selected(ob):
     return ob.visible_get() and ob.select_get()
 
 
-def realize(keys, every=False):
-    """Replace what has one of these keys (or every surface) by plain objects; returns them by key.
+def realize(keys):
+    """Replace what has one of these keys by plain objects; returns them by key.
 
     An object that makes instances is replaced as a whole: it and all of its instances.
     """
-    if not keys and not every:
+    if not keys:
         return {}
-    found = {}
-    with_render_depsgraph(lambda depsgraph: _collect(depsgraph, keys, every, found))
-    originals = [ob for ob in bpy.data.objects if ob.name_full in found["replaced"]]  # linked ones have their file
-    objects = {key: _make_object(key, **content) for key, content in found["copies"].items()}
-    for ob in originals:
-        ob.hide_render = True
-        ob.instance_type = "NONE"
-    missing = keys - objects.keys()
+    shown = collect(lambda key, instance: key in keys)
+    missing = keys - {item.name for item in shown}
     if missing:
         raise Refusal(f"'{sorted(missing)[0]}' was there when the scene was surveyed and is gone now")
+    objects = {item.name: make_object(item) for item in shown}
+    for owner in {item.owner for item in shown}:
+        owner.hide_render = True  # of a linked one for as long as Blender runs
+        for child in stop_instancing(owner):
+            child.hide_render = True
     return objects
 
 
-def _collect(depsgraph, keys, every, found):
-    """First find which originals have to go, then copy everything that goes with them."""
-    names, replaced = Keys(), set()
-    surfaces = []
+def collect(is_wanted):
+    """A Shown, with its mesh as evaluated, for each surface that is_wanted(key, instance), and for all else that its
+    object makes. Objects that share evaluated data share the mesh."""
+    shown = []
+    with_render_depsgraph(lambda depsgraph: shown.extend(_collect(depsgraph, is_wanted)))
+    return shown
+
+
+def _collect(depsgraph, is_wanted):
+    names, owners, surfaces = Keys(), set(), []
     for instance in shown_surfaces(depsgraph):
-        key = names.new(instance)
-        owner = instancer_of(instance) or instance.object.original.name_full
+        key, owner = names.new(instance), owner_of(instance)
         surfaces.append((key, owner))
-        if every or key in keys:
-            replaced.add(owner)
-    going = {key for key, owner in surfaces if owner in replaced}
-    found["replaced"], found["copies"] = replaced, {}
-    names = Keys()
-    for instance in shown_surfaces(depsgraph):
-        key = names.new(instance)
-        if key in going:
-            found["copies"][key] = _copy(instance)
+        if is_wanted(key, instance):
+            owners.add(owner)
+    meshes = {}
+    for (key, owner), instance in zip(surfaces, shown_surfaces(depsgraph)):
+        if owner not in owners:
+            continue
+        item = Shown(instance, key)
+        data = instance.object.data.as_pointer()
+        if data not in meshes:
+            meshes[data] = copy_mesh(instance.object)  # the render depsgraph keeps all UV layers
+        item.data = meshes[data]
+        item.materials = [slot.material.original if slot.material else None for slot in instance.object.material_slots]
+        yield item
 
 
-def _copy(instance):
-    ob = instance.object
-    mesh = bpy.data.meshes.new_from_object(ob)  # as evaluated: the render depsgraph keeps all UV layers
-    materials = [slot.material.original if slot.material else None for slot in ob.material_slots]
-    visible = {name: getattr(ob, name) for name in dir(ob)
-               if name.startswith("visible_") and isinstance(getattr(ob, name), bool)}
-    return {"original": ob.original, "mesh": mesh, "matrix": instance.matrix_world.copy(), "materials": materials,
-            "visible": visible}
+def owner_of(instance):
+    """The object that would have to go with it: what makes the instance, or the object itself."""
+    return (instance.parent if instancer_of(instance) else instance.object).original
 
 
-def _make_object(key, original, mesh, matrix, materials, visible):
-    ob = bpy.data.objects.new(key[:60], mesh)
+def stop_instancing(owner):
+    """Returns the objects that only its instances showed, and that now show themselves."""
+    patterns = list(owner.children) if owner.instance_type in ("VERTS", "FACES") else []
+    owner.instance_type = "NONE"
+    return patterns
+
+
+def make_object(item):
+    """What a render shows there, as an object that nothing else changes."""
+    ob = bpy.data.objects.new(fitting(item.name, bpy.data.objects), item.data)
     bpy.context.scene.collection.objects.link(ob)
-    place(ob, matrix)
-    light_linking.follow(ob, original)
-    while len(mesh.materials) < len(materials):
-        mesh.materials.append(None)
-    for slot, material in zip(ob.material_slots, materials):
-        slot.link = "OBJECT"
-        slot.material = material
-    for name, value in visible.items():
-        setattr(ob, name, value)
+    place(ob, item.matrix)
+    keep_flags(ob, item)
+    give_materials(ob, item.materials)
     return ob
+
+
+def keep_flags(ob, item):
+    """Who sees it, what Cycles makes of it, and which lights light it or are its own."""
+    for name, value in {**item.visible, **item.flags}.items():
+        setattr(ob, name, value)
+    for name, value in item.cycles_flags.items():
+        setattr(ob.cycles, name, value)
+    for role, collection in item.linking.items():
+        setattr(ob.light_linking, role, collection)
+    light_linking.follow(ob, item.owner if light_linking.memberships(item.owner) else item.original)
+
+
+def give_materials(ob, materials):
+    while len(ob.data.materials) < len(materials):
+        ob.data.materials.append(None)
+    for slot, material in zip(ob.material_slots, materials):
+        if slot.material != material:
+            slot.link, slot.material = "OBJECT", material
 
 
 def place(ob, matrix):

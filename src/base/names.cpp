@@ -84,6 +84,10 @@ std::string cut_utf8(std::string_view text, std::size_t bytes) {
   return std::string(text.substr(0, end));
 }
 
+FileStems::FileStems(const std::vector<std::string>& taken) {
+  for (const std::string& stem : taken) taken_.insert(folded_key(stem));
+}
+
 std::string FileStems::take(std::string_view name) {
   const std::string stem = presentable(harmless(name));
   if (stem == name && taken_.insert(folded_key(stem)).second) return stem;

@@ -17,6 +17,10 @@ class FileStems {
  public:
   static constexpr std::size_t max_bytes = 120;
 
+  FileStems() = default;
+  /// Files of these stems are there already.
+  explicit FileStems(const std::vector<std::string>& taken);
+
   /// `name` itself where it is harmless: no separator, no "..", no control character, no leading dot or dash,
   /// not reserved by Windows, valid UTF-8, at most max_bytes, not given out before. Else a harmless version
   /// of it with a short hash of the name appended. Depends on the order of the calls only on collision.

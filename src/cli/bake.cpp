@@ -10,6 +10,7 @@
 #include "process/stop.h"
 
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -36,7 +37,8 @@ int bake(const ResolvedConfig& config) {
   prepare_output(config.globals.output);
   const SurveyedScene scene = survey_scene(workspace);
   const TargetList list = make_targets(workspace, scene.survey);
-  return report(run_bake(workspace, {scene.survey, list, bases, scene.blend, scene.own}),
+  EarlierLightmaps earlier = find_earlier(workspace, {"bake", bases}, scene.survey, list.targets);
+  return report(run_bake(workspace, {scene.survey, list, bases, scene.blend, scene.own, std::move(earlier)}),
                 config.globals.output);
 }
 

@@ -50,12 +50,16 @@ int reference(const ResolvedConfig& config) {
   say_what_is_left_out(exported.exchange);
   const ReferencePlan plan = plan_reference(config, survey.blender_version);
   const TraceScene scene(exported.exchange, plan.blender_version);
-  std::string with_uvs;
-  if (!exported.scene.blend.empty())
-    with_uvs = save_scene_with_uvs(workspace, survey, exported.scene.own, exported.list.targets);
+  const EarlierLightmaps earlier =
+      find_earlier(workspace, {"reference", bases}, survey, exported.list.targets);
+  SavedScene saved;
+  if (!exported.scene.blend.empty()) {
+    saved = save_scene_with_uvs(workspace, survey, exported.scene.own,
+                                earlier.add_to(uvs_of(exported.list.targets)));
+  }
   log::info("tracing {} lightmaps x {} directions against Blender {}", exported.list.targets.size(),
             bases.size(), plan.blender_version);
-  return report(run_reference({scene, exported.list, bases}, settings, plan, "tracing", with_uvs),
+  return report(run_reference({scene, exported.list, bases, earlier}, settings, plan, "tracing", saved),
                 settings.output);
 }
 

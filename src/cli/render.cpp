@@ -9,6 +9,7 @@
 #include "image/layered_exr.h"
 #include "pipeline/deliver_lightmap.h"
 #include "pipeline/export_scene.h"
+#include "pipeline/fit_camera.h"
 #include "pipeline/late_blender.h"
 #include "pipeline/reference_plan.h"
 #include "pipeline/render_compare.h"
@@ -72,11 +73,10 @@ class Stage {
   }
 
  private:
-  /// A camera is looked for before anything else is done with the scene.
   ExportedScene opened() {
     if (!is_exchange(config_.globals.scene.file)) (void)blender_.info();
     ExportedScene exported = export_scene(workspace_);
-    (void)camera_of(exported.exchange);
+    give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
   }
 

@@ -69,6 +69,13 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
   command
       .add_option("-o,--output", output, "picture to write: .exr (linear) or .png; with --compare a folder")
       ->type_name("PATH");
+  command
+      .add_option(
+          "--camera", camera,
+          "fit: look from the front right and above at all that is baked, whatever camera the scene has "
+          "[the scene's; fit where it has none]")
+      ->check(CLI::IsMember({"fit"}).description(""))
+      ->type_name("fit");
   command.add_option("--resolution", resolution, "size of the picture [the camera's, at most 960 pixels]")
       ->type_name("WxH");
   command
@@ -118,6 +125,7 @@ std::string RenderFlags::as_text() const {
   add("--with", with);
   if (compare) text += " --compare";
   if (materials != "lambert") add("--materials", materials);
+  add("--camera", camera);
   add("--resolution", resolution);
   if (samples > 0) add("--samples", fmt::format("{}", samples));
   add("-o", output.string());

@@ -28,7 +28,7 @@ class RenderFlags {
 
   SettingsFlags settings;
   std::filesystem::path lightmaps, output;
-  std::string decode, with, materials = "lambert", resolution;
+  std::string decode, with, materials = "lambert", resolution, camera;
   int samples = 0;  // 0: not said
   float exposure = 0;
   bool compare = false;

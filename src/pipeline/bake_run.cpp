@@ -74,7 +74,7 @@ class BakeRun {
   [[nodiscard]] bool by_receiver() const { return settings_.bake.recipe == BakingSettings::Recipe::receiver; }
 
   void make_plan() {
-    FileStems stems;
+    FileStems stems(subject_.earlier.stems());
     for (std::size_t i = 0; i < list_.targets.size(); ++i) {
       const Target& target = list_.targets[i];
       notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, nullptr});
@@ -121,9 +121,10 @@ class BakeRun {
   }
 
   void write_records(const BakeOutcome& outcome) {
-    const std::string with_uvs =
-        save_scene_with_uvs(workspace_, subject_.survey, subject_.own, list_.targets);
-    write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, with_uvs,
+    const SavedScene saved = save_scene_with_uvs(workspace_, subject_.survey, subject_.own,
+                                                 subject_.earlier.add_to(uvs_of(list_.targets)));
+    write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved,
+                    subject_.earlier,
                     BakeRecord{horizons_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
   }
 

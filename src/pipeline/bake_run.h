@@ -4,6 +4,7 @@
 #include "basis/basis_set.h"
 #include "pipeline/deliver_lightmap.h"
 #include "pipeline/dispatcher.h"
+#include "pipeline/earlier_lightmaps.h"
 #include "pipeline/make_targets.h"
 #include "pipeline/workspace.h"
 #include "scene/survey.h"
@@ -24,8 +25,9 @@ struct BakeSubject {
   const Survey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
-  std::filesystem::path blend;  // what Blender opens: the scene, or a .blend made from it
-  std::filesystem::path own;    // the same with the user's own materials, to be saved with new UVs
+  std::filesystem::path blend;    // what Blender opens: the scene, or a .blend made from it
+  std::filesystem::path own;      // the same with the user's own materials, to be saved with new UVs
+  EarlierLightmaps earlier = {};  // stays in the manifest
 };
 
 /// Bakes all targets for all bases as the workspace's settings say, into their output folder, and writes the

@@ -1,8 +1,11 @@
 #include "pipeline/manifest.h"
 
 #include "base/files.h"
+#include "pipeline/target_facts.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace rnmbake {
 namespace {
@@ -51,6 +54,12 @@ void add_to_object(const ReferenceRecord& reference, const ManifestInput& input,
   entry["standard_error"] = reference.traced[index].error;
 }
 
+/// -1 where the layer was made.
+int index_in_source(const Target& target, const Mesh& mesh) {
+  const auto found = std::ranges::find(mesh.uv_layers, target.uv_layer, &UvLayer::name);
+  return target.unwrapped ? -1 : static_cast<int>(found - mesh.uv_layers.begin());
+}
+
 json describe_object(const ManifestInput& input, std::size_t index) {
   const Target& target = input.list.targets[index];
   const SceneObject& object = input.survey.objects[target.object];
@@ -62,6 +71,9 @@ json describe_object(const ManifestInput& input, std::size_t index) {
              {"height", target.height},
              {"triangles", target.part.triangles.size()},
              {"uv_layer", target.uv_layer},
+             {"uv_index_in_source", index_in_source(target, input.survey.mesh_of(object))},
+             {"uv_hash", uv_hash(*target.uv)},
+             {"mesh_hash", mesh_hash(input.survey.mesh_of(object))},
              {"unwrapped", target.unwrapped},
              {"tangent_uv_layer", target.tangent_layer},
              {"green", name_of(metadata.green)},
@@ -80,15 +92,6 @@ json describe_object(const ManifestInput& input, std::size_t index) {
   }
   std::visit([&](const auto& record) { add_to_object(record, input, index, entry); }, input.record);
   return entry;
-}
-
-json describe_bases(const std::vector<BasisDirection>& bases) {
-  json list = json::array();
-  for (const BasisDirection& basis : bases) {
-    list.push_back(
-        {{"name", basis.name}, {"direction", {basis.direction.x, basis.direction.y, basis.direction.z}}});
-  }
-  return list;
 }
 
 const char* name_of(SceneSettings::Materials materials) {
@@ -116,7 +119,56 @@ void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings
   manifest["timings"] = {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};
 }
 
+/// Where the saved scene has an object's lightmap: "" and -1 where there is none.
+void add_place(const SavedScene& saved, std::size_t object, json& entry) {
+  const auto found = saved.objects.find(object);
+  const SavedPlace place = found == saved.objects.end() ? SavedPlace{} : found->second;
+  entry["object_in_scene"] = place.object;
+  entry["uv_index"] = place.uv_index;
+}
+
+json list_objects(const ManifestInput& input) {
+  std::vector<std::pair<std::size_t, json>> all;
+  for (std::size_t i = 0; i < input.list.targets.size(); ++i) {
+    all.emplace_back(input.list.targets[i].object, describe_object(input, i));
+    add_place(input.saved, input.list.targets[i].object, all.back().second);
+  }
+  for (const EarlierLightmap& one : input.earlier.kept) {
+    all.emplace_back(one.object, one.entry);
+    if (!input.saved.file.empty()) add_place(input.saved, one.object, all.back().second);
+  }
+  std::ranges::stable_sort(all, {}, &std::pair<std::size_t, json>::first);
+  json list = json::array();
+  for (auto& [object, entry] : all) list.push_back(std::move(entry));
+  return list;
+}
+
+json list_skipped(const ManifestInput& input) {
+  json list = json::array();
+  for (const Skipped& skipped : input.list.skipped) {
+    const bool kept = std::ranges::any_of(input.earlier.kept, [&](const EarlierLightmap& one) {
+      return input.survey.objects[one.object].key == skipped.key;
+    });
+    if (!kept) list.push_back({{"key", skipped.key}, {"reason", skipped.reason}});
+  }
+  return list;
+}
+
+std::string saved_file(const ManifestInput& input) {
+  const bool earlier = input.saved.file.empty() && !input.earlier.kept.empty();
+  return earlier ? input.earlier.scene_with_uvs : input.saved.file;
+}
+
 }  // namespace
+
+nlohmann::json to_json(const std::vector<BasisDirection>& bases) {
+  json list = json::array();
+  for (const BasisDirection& basis : bases) {
+    list.push_back(
+        {{"name", basis.name}, {"direction", {basis.direction.x, basis.direction.y, basis.direction.z}}});
+  }
+  return list;
+}
 
 nlohmann::json make_manifest(const ManifestInput& input) {
   const LightmapMetadata common = input.notes.empty() ? LightmapMetadata{} : input.notes.front().metadata;
@@ -124,7 +176,7 @@ nlohmann::json make_manifest(const ManifestInput& input) {
                 {"rnmbake", common.rnmbake_version},
                 {"blender", input.survey.blender_version},
                 {"scene", input.settings.scene.file.filename().string()},
-                {"scene_with_uvs", input.scene_with_uvs},
+                {"scene_with_uvs", saved_file(input)},
                 {"conventions",
                  {{"encoding", common.convention},
                   {"units", common.units},
@@ -132,17 +184,12 @@ nlohmann::json make_manifest(const ManifestInput& input) {
                   {"handedness", common.handedness},
                   {"normalize", name_of(common.normalize)},
                   {"footprint", common.footprint}}},
-                {"bases", describe_bases(input.bases)},
+                {"bases", to_json(input.bases)},
                 {"recipe", common.recipe},
                 {"bounces", common.bounces},
-                {"objects", json::array()},
-                {"skipped", json::array()}};
+                {"objects", list_objects(input)},
+                {"skipped", list_skipped(input)}};
   std::visit([&](const auto& record) { add_to_top(record, input.settings, manifest); }, input.record);
-  for (std::size_t i = 0; i < input.list.targets.size(); ++i)
-    manifest["objects"].push_back(describe_object(input, i));
-  for (const Skipped& skipped : input.list.skipped) {
-    manifest["skipped"].push_back({{"key", skipped.key}, {"reason", skipped.reason}});
-  }
   return manifest;
 }
 

@@ -5,6 +5,7 @@
 #include "bake/receiver.h"
 #include "pipeline/deliver_lightmap.h"
 #include "pipeline/dispatcher.h"
+#include "pipeline/earlier_lightmaps.h"
 #include "pipeline/make_targets.h"
 #include "scene/exchange.h"
 
@@ -48,10 +49,15 @@ struct ManifestInput {
   const std::vector<BasisDirection>& bases;
   const std::vector<DeliveryNote>& notes;   // [targets]
   const std::vector<Delivery>& deliveries;  // [targets]
-  std::string scene_with_uvs;               // file in the output folder, "" if none was saved
+  const SavedScene& saved;
+  const EarlierLightmaps& earlier;
   std::variant<BakeRecord, ReferenceRecord> record;
 };
 
+/// The entry "bases".
+[[nodiscard]] nlohmann::json to_json(const std::vector<BasisDirection>& bases);
+
+/// Lists what this run made, and what an earlier one did and still fits, in the scene's order.
 /// Everything except "timings" is the same whenever the same bake is run again.
 [[nodiscard]] nlohmann::json make_manifest(const ManifestInput& input);
 

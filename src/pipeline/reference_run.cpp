@@ -68,10 +68,10 @@ class ReferenceRun {
     outcome_.deliveries.resize(list_.targets.size());
   }
 
-  ReferenceOutcome run(const std::string& with_uvs) {
+  ReferenceOutcome run(const SavedScene& saved) {
     const double started = steady_clock().now();
     std::map<Kind, std::vector<std::size_t>> groups;
-    FileStems stems;
+    FileStems stems(subject_.earlier.stems());
     for (std::size_t i = 0; i < list_.targets.size(); ++i) {
       const Target& target = list_.targets[i];
       auto surface = std::make_shared<const Surface>(surface_of(survey(), target));
@@ -82,8 +82,8 @@ class ReferenceRun {
     }
     for (const auto& [kind, targets] : groups) trace(kind, targets);
     record_.wall_seconds = outcome_.wall_seconds = steady_clock().now() - started;
-    write_manifest(
-        {settings_, survey(), list_, subject_.bases, notes_, outcome_.deliveries, with_uvs, record_});
+    write_manifest({settings_, survey(), list_, subject_.bases, notes_, outcome_.deliveries, saved,
+                    subject_.earlier, record_});
     return std::move(outcome_);
   }
 
@@ -197,9 +197,8 @@ class ReferenceRun {
 }  // namespace
 
 ReferenceOutcome run_reference(const ReferenceSubject& subject, const BakeSettings& settings,
-                               const ReferencePlan& plan, const std::string& title,
-                               const std::string& with_uvs) {
-  return ReferenceRun(subject, settings, plan, title).run(with_uvs);
+                               const ReferencePlan& plan, const std::string& title, const SavedScene& saved) {
+  return ReferenceRun(subject, settings, plan, title).run(saved);
 }
 
 }  // namespace rnmbake

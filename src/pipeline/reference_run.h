@@ -4,6 +4,7 @@
 #include "basis/basis_set.h"
 #include "config/bake_settings.h"
 #include "pipeline/deliver_lightmap.h"
+#include "pipeline/earlier_lightmaps.h"
 #include "pipeline/make_targets.h"
 #include "pipeline/reference_plan.h"
 #include "trace/scene.h"
@@ -19,6 +20,7 @@ struct ReferenceSubject {
   const TraceScene& scene;
   const TargetList& list;  // of the scene's objects; samples and seed as its settings say
   const std::vector<BasisDirection>& bases;
+  EarlierLightmaps earlier = {};  // stays in the manifest
 };
 
 struct ReferenceOutcome {
@@ -28,10 +30,10 @@ struct ReferenceOutcome {
 };
 
 /// Traces all targets and writes each as soon as it is complete into the settings' output folder, named as a
-/// bake would name it; the manifest last. `title` heads the progress, `with_uvs` goes into the manifest.
+/// bake would name it; the manifest last. `title` heads the progress, `saved` goes into the manifest.
 /// Throws Interrupted, with what was complete in its place, and Error(io) where nothing more can be written.
 [[nodiscard]] ReferenceOutcome run_reference(const ReferenceSubject& subject, const BakeSettings& settings,
                                              const ReferencePlan& plan, const std::string& title = "tracing",
-                                             const std::string& with_uvs = "");
+                                             const SavedScene& saved = {});
 
 }  // namespace rnmbake

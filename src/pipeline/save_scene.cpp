@@ -1,62 +1,111 @@
 #include "pipeline/save_scene.h"
 
+#include "base/bytes.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "pipeline/scene_survey.h"
 
-#include <fstream>
+#include <algorithm>
 #include <set>
-#include <span>
-
 namespace rnmbake {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
-void write_uvs(const fs::path& file, const std::vector<Vec2>& uv) {
-  const auto bytes = std::as_bytes(std::span(uv));
-  write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+bool wanted(OutputSettings::SaveScene mode, const std::vector<SavedUvs>& objects) {
+  using Mode = OutputSettings::SaveScene;
+  const bool unwrapped = std::ranges::any_of(objects, [](const SavedUvs& one) { return one.uv != nullptr; });
+  return mode == Mode::always || (mode == Mode::when_unwrapped && unwrapped);
 }
 
-bool wanted(OutputSettings::SaveScene mode, bool any_unwrapped) {
-  using Mode = OutputSettings::SaveScene;
-  return mode == Mode::always || (mode == Mode::when_unwrapped && any_unwrapped);
+/// The request's entries; writes the arrays that they name, each once.
+class ObjectList {
+ public:
+  ObjectList(const Survey& survey, fs::path folder) : survey_(survey), folder_(std::move(folder)) {}
+
+  void add(const SavedUvs& one) {
+    const SceneObject& object = survey_.objects[one.object];
+    json entry{{"key", object.key}, {"uv_layer", one.layer}, {"faces", faces_of(object.mesh)}};
+    if (one.uv) entry["uv_array"] = array_of(one.uv);
+    list.push_back(std::move(entry));
+  }
+
+  json list = json::array();
+
+ private:
+  std::string faces_of(int mesh) {
+    std::string name = "faces" + std::to_string(mesh) + ".i32";
+    if (faces_.insert(mesh).second) {
+      const Mesh& it = survey_.meshes[static_cast<std::size_t>(mesh)];
+      write_atomically(folder_ / name,
+                       std::string(bytes_of(it.loop_vertex)) + std::string(bytes_of(it.polygon_start)));
+    }
+    return name;
+  }
+
+  std::string array_of(const Uvs& uv) {
+    const auto [entry, fresh] = arrays_.emplace(uv.get(), "uv" + std::to_string(arrays_.size()) + ".f32");
+    if (fresh) write_atomically(folder_ / entry->second, bytes_of(*uv));
+    return entry->second;
+  }
+
+  const Survey& survey_;
+  fs::path folder_;
+  std::set<int> faces_;
+  std::map<const void*, std::string> arrays_;
+};
+
+SavedScene read_answer(const json& answer, const Survey& survey, const std::vector<SavedUvs>& objects) {
+  SavedScene saved;
+  for (const SavedUvs& one : objects) {
+    const std::string& key = survey.objects[one.object].key;
+    const json& place = answer.at("objects").at(key);
+    saved.objects[one.object] = {place.at("object").get<std::string>(), place.at("uv_index").get<int>()};
+    if (place.at("plain").get<bool>()) {
+      log::info(
+          "{}: a plain mesh in the saved scene, since its UVs belong to what its modifiers or instancer make",
+          key);
+    }
+  }
+  return saved;
 }
 
 }  // namespace
 
-std::string save_scene_with_uvs(Workspace& workspace, const Survey& survey, const fs::path& blend,
-                                const std::vector<Target>& targets) {
+std::vector<SavedUvs> uvs_of(const std::vector<Target>& targets) {
+  std::vector<SavedUvs> objects;
+  std::set<std::size_t> done;  // parts of one object share their UVs
+  for (const Target& target : targets) {
+    if (done.insert(target.object).second)
+      objects.push_back({target.object, target.uv_layer, target.unwrapped ? target.uv : nullptr});
+  }
+  return objects;
+}
+
+SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const fs::path& blend,
+                               const std::vector<SavedUvs>& objects) {
+  const BakeSettings& settings = workspace.settings();
+  if (!wanted(settings.output.save_scene, objects)) return {};
   Launch launch;
   launch.entry = "save_uvs_entry.py";
   if (blend.extension() == ".blend") launch.scene = blend;  // glTF is imported by the script
   launch.request = scene_request(workspace, blend);
-  launch.request["objects"] = nlohmann::json::array();
+  launch.request["imported"] = settings.scene.file.extension() != ".blend";
   launch.folder = workspace.new_folder("save-uvs");
-  std::set<std::size_t> done;  // parts of one object share their UVs
-  for (const Target& target : targets) {
-    if (!target.unwrapped || !done.insert(target.object).second) continue;
-    const SceneObject& object = survey.objects[target.object];
-    const std::string array = "uv" + std::to_string(target.object) + ".f32";
-    write_uvs(launch.folder / array, *target.uv);
-    launch.request["objects"].push_back({{"key", object.key}, {"name", object.name}, {"uv_array", array}});
-  }
-  const OutputSettings& output = workspace.settings().output;
-  if (!wanted(output.save_scene, !done.empty())) return "";
+  ObjectList list(survey, launch.folder);
+  for (const SavedUvs& one : objects) list.add(one);
+  launch.request["objects"] = std::move(list.list);
 
-  const fs::path folder = launch.folder;
-  const auto answer = workspace.run(std::move(launch));
-  for (const auto& key : answer.at("realized")) {
-    log::info(
-        "{}: a plain mesh in the saved scene, since its UVs belong to what its modifiers or instancer make",
-        key.get<std::string>());
-  }
-  std::string name = workspace.settings().scene.file.stem().string() + ".lightmap-uvs.blend";
-  write_atomically(output.dir / name, [&](const fs::path& temporary) {
-    fs::copy_file(folder / answer.at("blend").get<std::string>(), temporary,
-                  fs::copy_options::overwrite_existing);
+  const std::string name = settings.scene.file.stem().string() + ".lightmap-uvs.blend";
+  SavedScene saved;
+  write_atomically(fs::absolute(settings.output.dir) / name, [&](const fs::path& temporary) {
+    launch.request["save_as"] = temporary.string();
+    saved = read_answer(workspace.run(std::move(launch)), survey, objects);
   });
-  return name;
+  saved.file = name;
+  return saved;
 }
 
 }  // namespace rnmbake

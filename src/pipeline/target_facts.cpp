@@ -1,11 +1,12 @@
 #include "pipeline/target_facts.h"
 
+#include "base/bytes.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "scene/tangents.h"
 
 namespace rnmbake {
-
 Surface surface_of(const Survey& survey, const Target& target) {
   const SceneObject& object = survey.objects[target.object];
   const Mesh& mesh = survey.mesh_of(object);
@@ -17,12 +18,15 @@ Surface surface_of(const Survey& survey, const Target& target) {
   return make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
 }
 
+Normalize normalize_of(const OutputSettings& output) {
+  return output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
+}
+
 LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,
                                  const OutputSettings& output) {
   LightmapMetadata metadata;
   metadata.green = target.flip_green ? Green::y_down : Green::y_up;
-  metadata.normalize =
-      output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
+  metadata.normalize = normalize_of(output);
   metadata.samples = object.samples;
   metadata.seed = object.seed;
   metadata.rnmbake_version = version;
@@ -30,6 +34,15 @@ LightmapMetadata target_metadata(const Target& target, const ObjectSettings& obj
   metadata.uv_layer = target.uv_layer;
   metadata.tangent_uv_layer = target.tangent_layer;
   return metadata;
+}
+
+std::string mesh_hash(const Mesh& mesh) {
+  return hash128_hex(hash128_hex(bytes_of(mesh.loop_vertex)) + hash128_hex(bytes_of(mesh.polygon_start)) +
+                     hash128_hex(bytes_of(mesh.polygon_slot)));
+}
+
+std::string uv_hash(const std::vector<Vec2>& uv) {
+  return hash128_hex(bytes_of(uv));
 }
 
 }  // namespace rnmbake

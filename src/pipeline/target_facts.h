@@ -7,14 +7,26 @@
 #include "scene/surface.h"
 #include "scene/survey.h"
 
+#include <string>
+#include <vector>
+
 namespace rnmbake {
 
 /// World-space triangles with the frames of the target's tangent UVs. Logs where those have no direction.
 [[nodiscard]] Surface surface_of(const Survey& survey, const Target& target);
 
+[[nodiscard]] Normalize normalize_of(const OutputSettings& output);
+
 /// All of the header that the target and its settings decide; recipe, horizon, footprint, bounces and
 /// Blender's version are the caller's.
 [[nodiscard]] LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,
                                                const OutputSettings& output);
+
+/// The same for meshes of the same corners, faces and slots in the same order, wherever their vertices lie:
+/// those between which UVs can be exchanged. 32 hexadecimal digits.
+[[nodiscard]] std::string mesh_hash(const Mesh& mesh);
+
+/// Of a UV for each corner; the same only for the very same numbers.
+[[nodiscard]] std::string uv_hash(const std::vector<Vec2>& uv);
 
 }  // namespace rnmbake

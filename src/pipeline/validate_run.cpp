@@ -6,6 +6,7 @@
 #include "base/names.h"
 #include "pipeline/compare.h"
 #include "pipeline/decompose.h"
+#include "pipeline/fit_camera.h"
 #include "pipeline/render_compare.h"
 #include "pipeline/split_study.h"
 #include "pipeline/steps.h"
@@ -61,7 +62,7 @@ class ValidateRun {
       : workspace_(workspace),
         options_(options),
         dir_(workspace.settings().output.dir),
-        exported_(export_scene(workspace)),
+        exported_(with_camera(export_scene(workspace))),
         plan_(plan_reference(workspace.config(), exported_.exchange.survey.blender_version)),
         scene_(exported_.exchange, plan_.blender_version),
         base_{workspace, exported_, scene_, bases},
@@ -99,7 +100,12 @@ class ValidateRun {
 
  private:
   [[nodiscard]] bool decomposes() const { return !decomposed_.targets.empty(); }
-  [[nodiscard]] bool shows_view() const { return options_.view > 0 && exported_.exchange.camera; }
+  [[nodiscard]] bool shows_view() const { return options_.view > 0; }
+
+  [[nodiscard]] ExportedScene with_camera(ExportedScene exported) const {
+    if (shows_view()) give_camera(exported);
+    return exported;
+  }
 
   /// The receiver's lightmaps, put back into the scene.
   [[nodiscard]] ViewComparison view() const {
