@@ -133,7 +133,9 @@ class Search {
       earlier.kept.push_back(std::move(one));
     }
     if (!earlier.kept.empty())
-      log::info("{} earlier lightmaps of other objects stay in {}", earlier.kept.size(), file_.string());
+      log::info("{} of earlier runs: kept in {}",
+                earlier.kept.size() == 1 ? "a lightmap" : fmt::format("{} lightmaps", earlier.kept.size()),
+                file_.string());
     return earlier;
   }
 
