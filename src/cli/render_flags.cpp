@@ -70,10 +70,9 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
       .add_option("-o,--output", output, "picture to write: .exr (linear) or .png; with --compare a folder")
       ->type_name("PATH");
   command
-      .add_option(
-          "--camera", camera,
-          "fit: look from the front right and above at all that is baked, whatever camera the scene has "
-          "[the scene's; fit where it has none]")
+      .add_option("--camera", camera,
+                  "look from the front right and above at all that is baked, whatever camera the scene has "
+                  "[the scene's; fit where it has none]")
       ->check(CLI::IsMember({"fit"}).description(""))
       ->type_name("fit");
   command.add_option("--resolution", resolution, "size of the picture [the camera's, at most 960 pixels]")
