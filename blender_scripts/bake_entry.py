@@ -14,12 +14,13 @@ import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
-from scene_ops import cycles, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
+from scene_ops import cycles, displacement, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
 
 
 def main(task):
     task.progress("load")
-    load.open_scene(task)
+    load.open_to_measure(task)
+    displacement.settle()
     scene = bpy.context.scene
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()

@@ -9,12 +9,12 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
 from scene_ops.export_survey import ExportSurveyor  # noqa: E402
-from scene_ops.load import open_scene  # noqa: E402
+from scene_ops.load import open_to_measure  # noqa: E402
 from scene_ops.survey import survey_scene, write_survey  # noqa: E402
 
 
 def main(task):
-    warnings = open_scene(task)
+    warnings = open_to_measure(task)
     task.progress("evaluate")
     surveyor = ExportSurveyor(task)
     survey = survey_scene(task, surveyor)

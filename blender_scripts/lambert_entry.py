@@ -12,15 +12,16 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
-from scene_ops import export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
-from scene_ops.load import open_scene, refuse_blocked_scripts  # noqa: E402
+from scene_ops import displacement, export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
+from scene_ops.load import open_to_measure, refuse_blocked_scripts  # noqa: E402
 
 FILE = "lambert.blend"
 
 
 def main(task):
-    warnings = open_scene(task)
+    warnings = open_to_measure(task)
     export_notes.remember_camera(bpy.context.scene)
+    warnings += displacement.settle()
     task.progress("evaluate")
     shown = lambert_collect.collect()
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated

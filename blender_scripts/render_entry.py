@@ -15,11 +15,11 @@ import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
 from scene_ops import cycles, render_camera, render_normals  # noqa: E402
-from scene_ops.load import open_scene  # noqa: E402
+from scene_ops.load import open_to_measure  # noqa: E402
 
 
 def main(task):
-    warnings = open_scene(task)
+    warnings = open_to_measure(task)
     scene, request = bpy.context.scene, task.request
     if request["normal_maps"]:
         render_normals.put_back()

@@ -5,13 +5,15 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
-from scene_ops.load import imported_blend, open_scene, refuse_blocked_scripts  # noqa: E402
+from scene_ops import displacement  # noqa: E402
+from scene_ops.load import imported_blend, open_to_measure, refuse_blocked_scripts  # noqa: E402
 from scene_ops.survey import survey_scene, write_survey  # noqa: E402
 
 
 def main(task):
-    warnings = open_scene(task)
+    warnings = open_to_measure(task)
     blend = imported_blend(task)  # before the survey, which changes the render settings
+    warnings += displacement.settle()
     task.progress("evaluate")
     survey = survey_scene(task)
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated

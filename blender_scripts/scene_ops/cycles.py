@@ -2,29 +2,36 @@
 import bpy
 
 from core.task import ENVIRONMENT, Refusal
+from scene_ops.neutral import set_if_there
 
 LAYERS = 128  # see-through surfaces that a ray may cross; beyond Cycles takes them for opaque
 
 
-def _set(owner, name, value):
-    """Set a property that not every Blender has; say whether it exists."""
-    if not hasattr(owner, name):
-        return False
-    setattr(owner, name, value)
-    return True
+# What scene.cycles says of light and not of its pictures. All else there is put back to Cycles' own defaults.
+FOLLOWED = {"caustics_reflective", "caustics_refractive", "volume_bounces", "volume_step_rate", "volume_max_steps",
+            "volume_unbiased", "volume_biased", "transparent_max_bounces", "shading_system"}
 
 
 def apply_settings(scene, settings):
     """`settings`: samples, bounces, seed, clamp, device, as in the [bake] table of a project file."""
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
+    _put_back(cycles)
     cycles.samples = settings["samples"]
     cycles.seed = settings["seed"]
     cycles.sample_clamp_direct = settings["clamp"]
     cycles.sample_clamp_indirect = settings["clamp"]
     _set_bounces(cycles, settings["bounces"])
-    _remove_bias(scene)
+    _remove_bias(cycles)
     use_device(scene, settings["device"])
+
+
+def _put_back(cycles):
+    """Time limits, sample ranges, scrambling, seeds that follow the frame, and whatever comes next."""
+    for prop in cycles.bl_rna.properties:
+        name = prop.identifier
+        if not prop.is_readonly and name not in FOLLOWED and not name.startswith("preview_"):
+            cycles.property_unset(name)
 
 
 def _set_bounces(cycles, bounces):
@@ -34,20 +41,16 @@ def _set_bounces(cycles, bounces):
         setattr(cycles, lobe + "_bounces", bounces)
 
 
-def _remove_bias(scene):
-    cycles = scene.cycles
+def _remove_bias(cycles):
+    """Cycles' defaults that bias a bake."""
     cycles.blur_glossy = 0
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False  # 3.4 without OIDN bakes black with it on, and says FINISHED
     cycles.light_sampling_threshold = 0
-    cycles.film_exposure = 1  # multiplies bakes
     if bpy.app.version < (3, 5):
         cycles.sampling_pattern = "SOBOL"  # the default's samples repeat from texel to texel: a whole map errs one way
     for switch in ("use_fast_gi", "use_guiding"):
-        _set(cycles, switch, False)
-    scene.render.use_simplify = False
-    scene.render.use_persistent_data = False
-    scene.render.use_border = False
+        set_if_there(cycles, switch, False)
 
 
 def use_device(scene, device):

@@ -22,8 +22,8 @@ class ExportSurveyor(Surveyor):
                 self._lights_off.append(not instance.object.visible_diffuse)
         super().visit(depsgraph)
 
-    def add_surface(self, instance, ob, override):
-        super().add_surface(instance, ob, override)
+    def add_surface(self, instance, ob):
+        super().add_surface(instance, ob)
         entry = self.objects[-1]
         materials = [slot.material.original for slot in ob.material_slots]
         self.object_looks.append([self.looks.add(material, ob.data, entry["mesh"]) for material in materials])

@@ -65,7 +65,6 @@ def collect():
 
 
 def _visit(depsgraph, scene):
-    override = depsgraph.view_layer_eval.material_override
     names, meshes = Keys(), {}
     for instance in shown_surfaces(depsgraph):
         surface = Shown(instance, names.new(instance))
@@ -74,7 +73,7 @@ def _visit(depsgraph, scene):
         if shared not in meshes:
             meshes[shared] = copy_mesh(evaluated)
         surface.data = meshes[shared]
-        surface.materials = [_original(override or slot.material) for slot in evaluated.material_slots]
+        surface.materials = [_original(slot.material) for slot in evaluated.material_slots]
         scene.surfaces.append(surface)
     for instance in depsgraph.object_instances:
         if instance.show_self:

@@ -11,7 +11,6 @@ CONTAINERS = (bpy.types.Collection, bpy.types.Scene, bpy.types.Screen, bpy.types
 def rebuild(shown):
     """Link a plain object for every surface and light, and nothing else but camera, volumes and hair."""
     scene, everything = bpy.context.scene, shown.surfaces + shown.lights
-    bpy.context.view_layer.material_override = None  # already in the surfaces' materials
     for ob in {item.original for item in everything}:
         if not ob.library:
             ob.name = "rnmbake original"

@@ -4,6 +4,9 @@ import os
 import bpy
 
 from core.task import ENVIRONMENT, INVALID_INPUT, IO, UNSUPPORTED, Refusal
+from scene_ops import untrusted
+from scene_ops.caches import missing_caches
+from scene_ops.neutral import neutralise
 
 GLTF = (".glb", ".gltf")
 IMPORTED = (*GLTF, ".obj")
@@ -29,8 +32,16 @@ def open_scene(task):
         raise Refusal(f"{scene}: Blender did not open it; is it damaged, or saved by a newer Blender?")
     refuse_missing_libraries()
     refuse_blocked_scripts(task)
+    untrusted.refuse_stopped()
     leave_edit_mode()
-    return [f"picture missing: {image}" for image in missing_images()]
+    return [f"picture missing: {image}" for image in missing_images()] + [*missing_caches()]
+
+
+def open_to_measure(task):
+    """The same, for launches that ask what light the scene has."""
+    warnings = open_scene(task)
+    untrusted.settle_programs(task, bpy.context.scene)
+    return warnings + neutralise(bpy.context.scene)
 
 
 def imported_blend(task):

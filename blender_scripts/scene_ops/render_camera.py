@@ -42,6 +42,7 @@ def settle(scene):
     if hasattr(settings, "media_type"):
         settings.media_type = "IMAGE"
     settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "32"
+    settings.color_management = "FOLLOW_SCENE"  # else a file may ask for primaries of its own
     scene.cycles.pixel_filter_type = "BOX"
     shown = bpy.context.view_layer
     shown.samples = 0  # the scene's

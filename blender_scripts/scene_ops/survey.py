@@ -80,20 +80,19 @@ class Surveyor:
         self._keys = Keys()
 
     def visit(self, depsgraph):
-        override = depsgraph.view_layer_eval.material_override
         for instance in depsgraph.object_instances:
             if instance.show_self and instance.object.type == "LIGHT":
                 self.lights.append(describe_light(instance.object, instance.matrix_world))
         for instance in shown_surfaces(depsgraph):
-            self.add_surface(instance, instance.object, override)
+            self.add_surface(instance, instance.object)
 
     def finish(self):
         """After the visit; the file is complete then."""
         self.meshes.close()
 
-    def add_surface(self, instance, ob, override):
+    def add_surface(self, instance, ob):
         original = ob.original
-        slots = [material_name(override or slot.material) for slot in ob.material_slots]
+        slots = [material_name(slot.material) for slot in ob.material_slots]
         self.material_names.update(name for name in slots if name)
         matrix = [value for row in instance.matrix_world for value in row]
         if not all(map(math.isfinite, matrix)):

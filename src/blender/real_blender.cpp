@@ -62,7 +62,10 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   if (info.version >= first_with_offline_mode) argv.emplace_back("--offline-mode");
   if (launch.threads > 0) argv.insert(argv.end(), {"-t", std::to_string(launch.threads)});
   argv.insert(argv.end(), {"--python-exit-code", "86"});
-  if (launch.scene) argv.push_back(fs::absolute(*launch.scene).string());
+  if (launch.scene) {
+    if (!trust.allow_scripts) argv.insert(argv.end(), {"--python", scripts.entry("guard.py").string()});
+    argv.push_back(fs::absolute(*launch.scene).string());
+  }
   const std::string request = (fs::absolute(launch.folder) / "request.json").string();
   argv.insert(argv.end(), {"--python", scripts.entry(launch.entry).string(), "--", request});
   return argv;

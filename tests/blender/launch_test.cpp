@@ -223,10 +223,11 @@ TEST(LaunchArgv, GatesWhatOldBlendersDoNotKnow) {
   launch.threads = 3;
   info.version = {4, 1, 9};
   const std::string entry = (scripts.path() / "probe_entry.py").string();
+  const std::string guard = (scripts.path() / "guard.py").string();
   EXPECT_EQ(launch_argv(info, scripts, {false}, launch),
             (std::vector<std::string>{"/b", "-b", "--factory-startup", "-noaudio", "-Y", "-t", "3",
-                                      "--python-exit-code", "86", "/s.blend", "--python", entry, "--",
-                                      "/f/request.json"}));
+                                      "--python-exit-code", "86", "--python", guard, "/s.blend", "--python",
+                                      entry, "--", "/f/request.json"}));
   info.version = {4, 2, 0};
   launch.threads = 0;
   EXPECT_EQ(launch_argv(info, scripts, {true}, launch),

@@ -66,10 +66,27 @@ TEST_F(RefusalsWithBlender, NameAVertexThatIsNowhere) {
   }
 }
 
-TEST_F(RefusalsWithBlender, AreNotMadeForAMissingPicture) {
-  const Survey survey = session_->survey(session_->file("lost_image.blend"));
-  ASSERT_EQ(survey.warnings.size(), 1U);
+TEST_F(RefusalsWithBlender, NameWhatIsDisplacedAsItRendersAndIsNoMesh) {
+  const std::string message = refusal("displaced.blend");
+  for (const char* words : {"'relief'", "'rough rock'", "Displace modifier", "Bump Only"})
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  const LaunchOutcome lambert = session_->launch(session_->file("displaced.blend"), "lambert_entry.py");
+  ASSERT_NE(std::get_if<LaunchFailure>(&lambert), nullptr);
+  EXPECT_EQ(std::get<LaunchFailure>(lambert).message, message);
+}
+
+TEST_F(RefusalsWithBlender, NameAShaderProgram) {
+  const std::string message = refusal("program.blend");
+  EXPECT_NE(message.find("'pattern'"), std::string::npos) << message;
+  EXPECT_NE(message.find("--allow-scripts"), std::string::npos) << message;
+}
+
+TEST_F(RefusalsWithBlender, AreNotMadeForMissingFiles) {
+  const Survey survey = session_->survey(session_->file("lost_files.blend"));
+  ASSERT_EQ(survey.warnings.size(), 2U);
   EXPECT_NE(survey.warnings[0].find("lost.png"), std::string::npos);
+  EXPECT_NE(survey.warnings[1].find("object 'cube': the cache of its modifier 'cache' is missing"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 """Scenes that open, but in which something stands in the way."""
+import shutil
 import unittest
 
 from harness import INVALID_INPUT, OK, USAGE, BadInput, files_in
@@ -75,6 +76,20 @@ class Scripts(BadInput):
         ended = self.bake("autorun.blend", "--allow-scripts")
         self.assertEqual(ended.code, OK, ended.err)
         self.assertTrue(marker.exists())
+
+    def test_simulations_write_nothing(self):
+        self.assert_refused(self.bake("simulations.blend"), INVALID_INPUT, "'cloth'", "--allow-scripts")
+        self.assertEqual(self.simulated(), [])
+
+    def test_simulations_run_when_trusted(self):
+        self.addCleanup(lambda: [shutil.rmtree(path) for path in self.simulated()])
+        ended = self.bake("simulations.blend", "--allow-scripts", "--objects", "floor")
+        self.assertEqual(ended.code, OK, ended.err)
+        self.assertIn("blendcache_simulations", [path.name for path in self.simulated()])
+
+    def simulated(self):
+        places = [self.scenes / name for name in ("blendcache_simulations", "script_was_here")]
+        return [path for path in places if path.exists()]
 
     def test_scripted_driver(self):
         self.assert_refused(self.bake("driver.blend"), INVALID_INPUT, "'driven'", "--allow-scripts")

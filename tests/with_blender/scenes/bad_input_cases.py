@@ -83,8 +83,20 @@ def driver(_folder):
     driven.type, driven.expression = "SCRIPTED", "__import__('os').getpid() * 0 + 1"
 
 
+def simulations(folder):
+    """Written when the file is opened: the cloth's cache beside it, the fluid's where it says."""
+    card("floor")
+    cloth = card("cloth").modifiers.new("cloth", "CLOTH")
+    domain = card("domain").modifiers.new("fluid", "FLUID")
+    domain.fluid_type, domain.show_viewport = "DOMAIN", False
+    domain.domain_settings.cache_directory = os.path.join(folder, MARKER)
+    domain.domain_settings.resolution_max = 8
+    cloth.point_cache.use_disk_cache = True
+    domain.show_viewport = True
+
+
 def main(folder):
-    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, nan_vertex, names, autorun, driver):
+    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, nan_vertex, names, autorun, driver, simulations):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         sun()
         build(folder)

@@ -1,0 +1,30 @@
+"""The files that simulations were baked to, and that animate meshes."""
+import os
+
+import bpy
+
+
+def missing_caches():
+    """What a simulation was baked to, or what animates a mesh. An object without it stays in its rest pose."""
+    for cache in bpy.data.cache_files:
+        if cache.users and not os.path.exists(bpy.path.abspath(cache.filepath, library=cache.library)):
+            yield f"cache file missing: {cache.filepath}"
+    for ob in bpy.data.objects:
+        for modifier in ob.modifiers:
+            path = cache_path(modifier)
+            if path and not ob.hide_render and not os.path.exists(bpy.path.abspath(path, library=ob.library)):
+                yield f"object '{ob.name}': the cache of its modifier '{modifier.name}' is missing: {path}"
+
+
+def cache_path(modifier):
+    """Of modifiers that are nothing without the files that it names; "" for all others."""
+    if not modifier.show_render:
+        return ""
+    if modifier.type == "FLUID" and modifier.fluid_type == "DOMAIN":
+        return modifier.domain_settings.cache_directory
+    if modifier.type == "MESH_CACHE":
+        return modifier.filepath
+    if modifier.type == "OCEAN" and modifier.is_cached:
+        return modifier.filepath
+    cache = getattr(modifier, "point_cache", None)
+    return cache.filepath if cache and cache.use_external else ""
