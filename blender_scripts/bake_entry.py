@@ -37,23 +37,31 @@ def bake_receivers(task, scene):
     done, timings = 0, []
     for number, atlas in enumerate(atlases, 1):
         name = f"atlas {number} of {len(atlases)}"
-        timings.append(bake_atlas(task, scene, atlas, lambda phase: task.progress(phase, name, done, total)))
-        done += atlas["covered_texels"]
+        work = range(done, done + atlas["covered_texels"])
+        timings.append(bake_atlas(task, scene, atlas, lambda *event: say(task, name, work, total, *event)))
+        done = work.stop
     task.progress("bake", name, total, total)
     return {"atlases": timings}
 
 
-def bake_atlas(task, scene, atlas, say):
+def say(task, name, work, total, phase, begun, ended=0, samples=0):
+    """`begun` and `ended`: shares of the atlas, whose covered texels are `work`."""
+    task.progress(phase, name, work.start + begun * len(work), total, work.start + ended * len(work), samples)
+
+
+def bake_atlas(task, scene, atlas, tell):
     """One image, filled by one bake call for each light-linking group among its receivers."""
     image = cycles.new_float_image("rnmbake atlas", atlas["width"], atlas["height"])
+    samples = cycles.samples_of_picture(scene, atlas["width"], atlas["height"])
     clock, prepare, bake = Stopwatch(), 0, 0
     with open(task.path(atlas["arrays"]), "rb") as stream:
         for number, group in enumerate(atlas["groups"]):
-            say("build")
+            begun, ended = number / len(atlas["groups"]), (number + 1) / len(atlas["groups"])
+            tell("build", begun)
             mesh = receivers.build_mesh("rnmbake receiver", stream, group["corners"])
             receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["like"])
             prepare += clock.lap()
-            say("bake")
+            tell("bake", begun, ended, samples)
             cycles.bake_diffuse(scene, receiver, clear=number == 0)
             bake += clock.lap()
             bpy.data.meshes.remove(mesh)  # and with it the receiver

@@ -34,7 +34,8 @@ def main(task):
         mesh = receivers.build_mesh("rnmbake receiver", stream, request["receivers"]["corners"])
     receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image))
     for number, bake in enumerate(request["bakes"]):
-        task.progress("bake", bake["light"], number, len(request["bakes"]))
+        task.progress("bake", bake["light"], number, len(request["bakes"]), number + 1,
+                      cycles.samples_of_picture(scene, request["width"], request["height"]))
         for ob in surface:
             ob.hide_render = bake["open"]
         for lamp in lamps:

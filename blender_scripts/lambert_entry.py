@@ -14,6 +14,7 @@ import bpy  # noqa: E402
 from core.task import run  # noqa: E402
 from scene_ops import displacement, export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
 from scene_ops.load import open_to_measure, refuse_blocked_scripts  # noqa: E402
+from scene_ops.saving import save_copy  # noqa: E402
 
 FILE = "lambert.blend"
 
@@ -30,7 +31,7 @@ def main(task):
     lambert_scene.drop_originals(shown)
     bpy.context.scene[export_notes.OUTSIDE] = json.dumps(shown.outside)
     # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
-    bpy.ops.wm.save_as_mainfile(filepath=task.path(FILE), copy=True, relative_remap=True, check_existing=False)
+    save_copy(task.path(FILE), relative_remap=True, check_existing=False)
     return {"blend": FILE, "warnings": warnings}
 
 

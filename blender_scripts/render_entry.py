@@ -25,12 +25,15 @@ def main(task):
         render_normals.put_back()
     render_camera.look_through(scene, request["camera"])
     render_camera.size(scene, request["width"], request["height"], request["pixel_shape"])
-    return {"pictures": [render(task, scene, seed) for seed in request["seeds"]], "warnings": warnings}
+    return {"pictures": [render(task, scene, number) for number in range(len(request["seeds"]))], "warnings": warnings}
 
 
-def render(task, scene, seed):
-    task.progress("render", f"seed {seed}")
+def render(task, scene, number):
+    seeds = task.request["seeds"]
+    seed = seeds[number]
     cycles.apply_settings(scene, {**task.request["cycles"], "seed": seed})
+    samples = cycles.samples_of_picture(scene, task.request["width"], task.request["height"])
+    task.progress("render", f"seed {seed}", number, len(seeds), number + 1, samples)
     render_camera.settle(scene)
     name = f"view{seed}.exr"
     scene.render.filepath = task.path(name)

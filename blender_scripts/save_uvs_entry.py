@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
-from scene_ops import load, saved_scene  # noqa: E402
+from scene_ops import load, saved_scene, saving  # noqa: E402
 
 
 def main(task):
@@ -21,8 +21,7 @@ def main(task):
     if task.request["imported"] and bpy.data.filepath:
         bpy.ops.file.make_paths_relative()  # as in glTF and OBJ; an import makes whole ones of them
     bpy.context.preferences.filepaths.save_version = 0  # no backup of the file that is there to be written over
-    bpy.ops.wm.save_as_mainfile(filepath=task.request["save_as"], copy=True, compress=True, relative_remap=True,
-                                check_existing=False)
+    saving.save_copy(task.request["save_as"], compress=True, relative_remap=True, check_existing=False)
     return {"objects": objects}
 
 

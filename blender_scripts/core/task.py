@@ -3,6 +3,7 @@
 Blender's stdout carries its banner and its exit code cannot be trusted, so an answer counts only if
 result.json holds the nonce of the request. Nothing here needs bpy.
 """
+import errno
 import json
 import os
 import sys
@@ -15,6 +16,8 @@ ENVIRONMENT = 4
 UNSUPPORTED = 5
 
 SCRIPT_FAILED = 86
+FULL = (errno.ENOSPC, errno.EDQUOT)
+LEAST_SPACE = 1 << 16  # bytes; with less left on a disk it counts as full
 
 
 class Refusal(Exception):
@@ -32,18 +35,39 @@ class Task:
             self.request = json.load(stream)
         self.folder = self.request["folder"]
         self._progress = open(self.path("progress.jsonl"), "a", encoding="utf-8")
+        self._events = 0
+        with open(self.path("reserve"), "wb") as stream:  # room for an answer on a full disk
+            stream.write(bytes(LEAST_SPACE))
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def progress(self, phase, what="", done=0, total=0):
-        event = {"phase": phase, "what": what, "done": done, "total": total}
+    def progress(self, phase, what="", done=0, total=0, until=0, samples=0):
+        """Say what begins now: `done` of `total` lie before it, `until` will when it is finished. `samples`: what
+        Cycles will take of its picture. Goes to stdout as well, so that what Blender prints can be told from what
+        it printed before."""
+        event = {"phase": phase, "what": what, "done": done, "total": total, "until": until, "samples": samples}
         self._progress.write(json.dumps(event) + "\n")
         self._progress.flush()
+        self._events += 1
+        print("rnmbake: event", self._events, phase, flush=True)
+
+    def disk_is_full(self, error):
+        """Whether `error` was for want of room; what Blender itself could not write it says in words only."""
+        if isinstance(error, OSError) and error.errno in FULL:
+            return True
+        space = os.statvfs(self.folder)
+        free = space.f_frsize * (space.f_bavail if os.geteuid() else space.f_bfree)
+        return any(os.strerror(number) in str(error) for number in FULL) or free < LEAST_SPACE
+
+    def full_disk(self):
+        return {"refused": {"code": IO, "object": "", "message": f"the disk of {self.folder} is full; free some space, "
+                            "or point TMPDIR to a folder on another disk"}}
 
     def answer(self, content):
         """Write result.json whole or not at all."""
         content["nonce"] = self.request["nonce"]
+        os.remove(self.path("reserve"))
         unfinished = self.path("result.json.part")
         with open(unfinished, "w", encoding="utf-8") as stream:
             json.dump(content, stream)
@@ -56,9 +80,15 @@ def run(main):
     """Call main(task), which returns the result as a dict, and turn every outcome into result.json."""
     task = Task(sys.argv[sys.argv.index("--") + 1])
     try:
-        task.answer({"ok": main(task)})
+        outcome = {"ok": main(task)}
     except Refusal as refusal:
-        task.answer({"refused": {"code": refusal.code, "message": str(refusal), "object": refusal.object_name}})
+        outcome = {"refused": {"code": refusal.code, "message": str(refusal), "object": refusal.object_name}}
+        if task.disk_is_full(refusal):
+            outcome = task.full_disk()
     except Exception as error:  # whatever it is, the driver must hear of it
-        task.answer({"failed": {"message": repr(error), "traceback": traceback.format_exc()}})
+        outcome = {"failed": {"message": repr(error), "traceback": traceback.format_exc()}}
+        if task.disk_is_full(error):
+            outcome = task.full_disk()
+    task.answer(outcome)
+    if "failed" in outcome:
         sys.exit(SCRIPT_FAILED)

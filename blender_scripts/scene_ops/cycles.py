@@ -1,4 +1,6 @@
 """Cycles as an irradiance meter: every default that biases a bake is turned off."""
+import math
+
 import bpy
 
 from core.task import ENVIRONMENT, Refusal
@@ -85,6 +87,13 @@ def bake_diffuse(scene, target, clear=True):
         target="IMAGE_TEXTURES", save_mode="INTERNAL")
     if outcome != {"FINISHED"}:
         raise Refusal(f"Blender cancelled the bake of '{target.name}'", object_name=target.name)
+
+
+def samples_of_picture(scene, width, height):
+    """All that Cycles takes of one picture, for task.progress: it works on one tile of a large one after another."""
+    cycles = scene.cycles
+    side = cycles.tile_size if cycles.use_auto_tile else max(width, height)
+    return cycles.samples * math.ceil(width / side) * math.ceil(height / side)
 
 
 def new_float_image(name, width, height):

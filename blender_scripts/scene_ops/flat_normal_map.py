@@ -31,7 +31,8 @@ def bake_target(task, scene, target, whole, done, total):
         materials = give_normal_map(ob, image, target["tangent_layer"], task.request["correct_bump"])
         prepare = clock.lap()
         for number, request in enumerate(target["bakes"]):
-            task.progress("bake", f"{target['label']} {request['basis']}", done + number, total)
+            task.progress("bake", f"{target['label']} {request['basis']}", done + number, total, done + number + 1,
+                          cycles.samples_of_picture(scene, target["width"], target["height"]))
             for material in materials:
                 material.show_vector(request["direction"])
             cycles.bake_diffuse(scene, ob)

@@ -7,6 +7,7 @@ from core.task import ENVIRONMENT, INVALID_INPUT, IO, UNSUPPORTED, Refusal
 from scene_ops import untrusted
 from scene_ops.caches import missing_caches
 from scene_ops.neutral import neutralise
+from scene_ops.saving import save_copy
 
 GLTF = (".glb", ".gltf")
 IMPORTED = (*GLTF, ".obj")
@@ -49,7 +50,7 @@ def imported_blend(task):
     if os.path.splitext(task.request["scene"])[1].lower() not in IMPORTED:
         return None
     path = task.path("imported.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, relative_remap=False, check_existing=False)
+    save_copy(path, relative_remap=False, check_existing=False)
     return path
 
 

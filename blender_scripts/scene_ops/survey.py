@@ -92,6 +92,7 @@ class Surveyor:
 
     def add_surface(self, instance, ob):
         original = ob.original
+        self.task.progress("evaluate", original.name, len(self.objects))
         slots = [material_name(slot.material) for slot in ob.material_slots]
         self.material_names.update(name for name in slots if name)
         matrix = [value for row in instance.matrix_world for value in row]
@@ -109,7 +110,6 @@ class Surveyor:
             "light_group": light_group(original),
             "visible_to_camera": bool(ob.visible_camera),
         })
-        self.task.progress("evaluate", original.name, len(self.objects))
 
 
 def material_name(material):

@@ -1,6 +1,9 @@
 #include "base/files.h"
 
+#include "base/disk.h"
 #include "base/error.h"
+#include "base/leftovers.h"
+#include "base/owner.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -40,7 +43,8 @@ std::string random_word() {
 /// Opens a new file beside `target` with the permissions that the user's umask gives (mkstemp's are 0600).
 int create_beside(const fs::path& target, fs::path& temporary) {
   for (int attempt = 0; attempt < 16; ++attempt) {
-    temporary = folder_of(target) / (".tmp-" + random_word() + target.extension().string());
+    const std::string name = leftover_file + owner_word() + '-' + random_word() + target.extension().string();
+    temporary = folder_of(target) / name;
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) return descriptor;
     if (errno != EEXIST) break;
@@ -55,16 +59,11 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-bool disk_is_full(const fs::path& folder) {
-  std::error_code error;
-  const fs::space_info space = fs::space(folder, error);
-  return !error && space.available < 4096;
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
   if (fs::is_directory(target_)) fail(ExitCode::io, "cannot write {}: it is a folder", target_.string());
+  sweep_leftovers(folder_of(target_));
   descriptor_ = create_beside(target_, temporary_);
 }
 
@@ -161,7 +160,8 @@ fs::path temp_root() {
 
 TempFolder::TempFolder(const fs::path& parent) {
   const fs::path root = fs::absolute(parent.empty() ? temp_root() : parent);
-  std::string name = (root / "rnmbake-XXXXXX").string();
+  sweep_leftovers(root);
+  std::string name = (root / (leftover_folder + owner_word() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr) {
     fail(ExitCode::io, "cannot create a temporary folder in {}: {}; point TMPDIR to a writable folder",
          root.string(), reason(errno));
@@ -174,7 +174,11 @@ TempFolder::TempFolder(TempFolder&& other) noexcept : path_(std::move(other.path
 }
 
 TempFolder::~TempFolder() {
-  if (kept_ || path_.empty()) return;
+  if (path_.empty()) return;
+  if (kept_) {
+    mark_as_kept(path_);
+    return;
+  }
   std::error_code ignored;
   fs::remove_all(path_, ignored);
 }

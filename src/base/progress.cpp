@@ -8,6 +8,13 @@
 
 namespace rnmbake {
 
+namespace {
+
+// From less than that the rate says little.
+constexpr double least_seconds = 2, least_share = 0.02;
+
+}  // namespace
+
 ProgressOptions progress_for(bool quiet, bool jsonl) {
   ProgressOptions options;
   if (quiet) {
@@ -28,10 +35,9 @@ std::string spoken_duration(double seconds) {
 Progress::Progress(std::string title, ProgressOptions options)
     : title_(std::move(title)),
       options_(std::move(options)),
-      started_(options_.clock->now()),
       // The first line comes after a whole interval (short work says nothing), the first bar at once.
-      last_shown_(options_.style == ProgressOptions::Style::bar ? started_ - options_.bar_seconds
-                                                                : started_) {}
+      last_shown_(options_.clock->now() -
+                  (options_.style == ProgressOptions::Style::bar ? options_.bar_seconds : 0)) {}
 
 Progress::~Progress() {
   if (options_.style != ProgressOptions::Style::bar) return;
@@ -45,9 +51,9 @@ Progress::~Progress() {
 void Progress::update(double share, std::string_view item) {
   if (options_.style == ProgressOptions::Style::off) return;
   const std::lock_guard lock(mutex_);
-  if (std::isfinite(share)) share_ = std::clamp(share, share_, 1.0);
   const bool bar = options_.style == ProgressOptions::Style::bar;
   const double now = options_.clock->now();
+  if (std::isfinite(share)) advance(std::min(share, 1.0), now);
   if (now - last_shown_ < (bar ? options_.bar_seconds : options_.line_seconds)) return;
   last_shown_ = now;
   if (bar) {
@@ -57,10 +63,19 @@ void Progress::update(double share, std::string_view item) {
   }
 }
 
+void Progress::advance(double share, double now) {
+  known_ = true;
+  if (share <= share_) return;
+  share_ = share;
+  last_ = {now, share};
+  if (!first_) first_ = last_;
+}
+
 double Progress::eta_seconds() const {
-  const double elapsed = options_.clock->now() - started_;
-  if (share_ < 0.01 || elapsed < 1) return -1;
-  return elapsed * (1 - share_) / share_;
+  if (!first_) return -1;
+  const double seconds = last_->time - first_->time, done = last_->share - first_->share;
+  if (seconds < least_seconds || done < least_share) return -1;
+  return seconds / done * (1 - share_) - (options_.clock->now() - last_->time);
 }
 
 std::string Progress::eta_text() const {
@@ -71,8 +86,9 @@ std::string Progress::eta_text() const {
 void Progress::show_bar(std::string_view item) {
   constexpr int cells = 24;
   const int full = static_cast<int>(share_ * cells);
-  std::string text = fmt::format("{} [{}{}] {:3.0f} %{} {}", title_, std::string(full, '#'),
-                                 std::string(cells - full, '.'), std::floor(share_ * 100), eta_text(), item);
+  const std::string percent = known_ ? fmt::format(" {:3.0f} %", std::floor(share_ * 100)) : "";
+  std::string text = fmt::format("{} [{}{}]{}{} {}", title_, std::string(full, '#'),
+                                 std::string(cells - full, '.'), percent, eta_text(), item);
   text = cut_utf8(text, static_cast<std::size_t>(options_.columns));
   if (options_.sink) {
     options_.sink(text);
@@ -82,8 +98,8 @@ void Progress::show_bar(std::string_view item) {
 }
 
 void Progress::show_line(std::string_view item) {
-  const std::string text = fmt::format("{}: {:.0f} %{}{}{}", title_, std::floor(share_ * 100), eta_text(),
-                                       item.empty() ? "" : ", at ", item);
+  const std::string share = known_ ? fmt::format("{:.0f} %{}, ", std::floor(share_ * 100), eta_text()) : "";
+  const std::string text = fmt::format("{}: {}at {}", title_, share, item.empty() ? "work" : item);
   if (options_.sink) {
     options_.sink(text);
   } else {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,7 +28,9 @@ ProgressOptions progress_for(bool quiet, bool jsonl);
 /// Seconds as a person says them: "8 s", "3 min 20 s", "2 h 05 min".
 std::string spoken_duration(double seconds);
 
-/// One piece of work from 0 to 1. May be updated from several threads.
+/// One piece of work from 0 to 1. May be updated from several threads. The remaining time is the rate between
+/// the first advance and the last: what comes before the work (a scene that loads) is no part of it, and
+/// while nothing advances the time runs down.
 class Progress {
  public:
   Progress(std::string title, ProgressOptions options);
@@ -35,21 +38,28 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `share` of the work is done, `item` is in work. The share never goes back.
+  /// `share` of the work is done (no number: unknown), `item` is in work. The share never goes back.
   void update(double share, std::string_view item);
 
-  /// The remaining seconds by rule of three; negative while nothing can be said.
+  /// The remaining seconds; negative where nothing can be said.
   [[nodiscard]] double eta_seconds() const;
 
  private:
   void show_bar(std::string_view item);
   void show_line(std::string_view item);
+  void advance(double share, double now);
   [[nodiscard]] std::string eta_text() const;
+
+  struct Moment {
+    double time, share;
+  };
 
   std::string title_;
   ProgressOptions options_;
-  double started_, last_shown_;
+  double last_shown_;
   double share_ = 0;
+  bool known_ = false;                  // a share was told
+  std::optional<Moment> first_, last_;  // advances
   std::mutex mutex_;
 };
 

@@ -24,15 +24,18 @@ struct Launch {
 };
 
 struct LaunchLimits {
-  double silence_seconds = 600;  // no CPU time used, nothing printed and no progress event for so long: hung
-  double total_seconds = 0;      // 0: no limit
+  double stall_seconds = 600;  // without progress (blender/launch_watch.h, process/stall.h): hung
+  double total_seconds = 0;    // 0: no limit
 };
 
-/// One line of progress.jsonl.
+/// One line of progress.jsonl: what begins now.
 struct ProgressEvent {
-  std::string phase;  // "load", "evaluate", "build", "bake", "save"
-  std::string what;   // the object or tile in work
-  double done = 0, total = 0;
+  std::string phase;           // "load", "evaluate", "build", "bake", "save"
+  std::string what;            // the object or tile in work
+  double done = 0, total = 0;  // work before it, work of the whole launch; total 0: unknown
+  double until = 0;            // what `done` will be when it is finished; 0: unknown
+  double samples = 0;          // that Cycles will take of its picture; 0: none, or unknown
+  std::string detail;          // what Blender says of it: "33 of 256 samples", "Synchronizing object | Cube"
 };
 
 struct Finished {
@@ -48,13 +51,15 @@ struct LaunchFailure {
     script,     // a Python exception: a defect of ours; the traceback is in `details`
     crashed,    // ended by a signal of its own (SIGSEGV, SIGABRT)
     killed,     // SIGKILL that we did not send: most likely out of memory
-    hung,       // ended by us after LaunchLimits
+    hung,       // ended by us: no progress, or more output than anyone can want
+    outlasted,  // ended by us after LaunchLimits::total_seconds
     no_result,  // exit 0, but no result file with our nonce
     stopped,    // the user interrupted
   };
   Kind kind = Kind::no_result;
   int code = 0;
   std::string message, object, details;
+  std::string phase;  // of the last ProgressEvent; "": the script had not begun
 };
 
 using LaunchOutcome = std::variant<Finished, LaunchFailure>;
@@ -64,6 +69,7 @@ class Blender {
  public:
   virtual ~Blender() = default;
   [[nodiscard]] virtual const BlenderInfo& info() const = 0;
+  /// `on_progress` hears of every event, and of the last one again and again while the launch runs.
   virtual LaunchOutcome run(const Launch& launch, const LaunchLimits& limits,
                             const std::function<void(const ProgressEvent&)>& on_progress) = 0;
 };

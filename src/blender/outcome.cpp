@@ -1,5 +1,6 @@
 #include "blender/outcome.h"
 
+#include "base/disk.h"
 #include "base/error.h"
 #include "base/files.h"
 
@@ -90,17 +91,33 @@ LaunchFailure refused(const nlohmann::json& refusal) {
   return out;
 }
 
-LaunchFailure ended_by_us(const ProcessResult& process, const LaunchLimits& limits,
-                          const std::string& words) {
+LaunchFailure ended_by_us(const ProcessResult& process, const LaunchLimits& limits, const std::string& words,
+                          const ProgressEvent& last) {
   if (process.ended_by == EndedBy::stop_request) return failure(Kind::stopped, 0, "stopped by the user");
-  if (process.ended_by == EndedBy::silence) {
-    return failure(Kind::hung, 0,
-                   fmt::format("Blender did nothing for {:.0f} s and was ended", limits.silence_seconds),
+  if (process.ended_by == EndedBy::total_limit) {
+    return failure(Kind::outlasted, 0,
+                   fmt::format("Blender ran longer than the limit of {:.0f} s and was ended, at {}",
+                               limits.total_seconds, in_words(last)),
                    words);
   }
+  if (process.ended_by == EndedBy::output_limit) {
+    return failure(Kind::hung, 0,
+                   fmt::format("Blender printed more than {} MiB and was ended, at {}",
+                               most_output_bytes >> 20, in_words(last)),
+                   words);
+  }
+  return failure(Kind::hung, 0,
+                 fmt::format("Blender made no progress for {:.0f} s and was ended, at {}",
+                             limits.stall_seconds, in_words(last)),
+                 words);
+}
+
+LaunchFailure full_disk(const Launch& launch, const std::string& words) {
   return failure(
-      Kind::hung, 0,
-      fmt::format("Blender ran longer than the limit of {:.0f} s and was ended", limits.total_seconds),
+      Kind::refused, static_cast<int>(ExitCode::io),
+      fmt::format("the disk of {} is full; free some space, or point TMPDIR to a folder on another "
+                  "disk",
+                  launch.folder.string()),
       words);
 }
 
@@ -110,6 +127,10 @@ LaunchFailure ended_by_signal(int signal, const std::string& words) {
         Kind::killed, signal,
         "Blender was killed, most likely because memory ran out; try fewer --jobs or a smaller --atlas-limit",
         words);
+  }
+  if (signal == SIGXFSZ) {
+    return failure(Kind::refused, static_cast<int>(ExitCode::io),
+                   "Blender wrote a file longer than it may (SIGXFSZ); raise the limit (ulimit -f)", words);
   }
   return failure(Kind::crashed, signal, fmt::format("Blender crashed ({})", signal_name(signal)), words);
 }
@@ -133,10 +154,10 @@ LaunchFailure without_answer(const Launch& launch, const ProcessResult& process,
 
 }  // namespace
 
-LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
-                    const ProcessResult& process) {
-  const std::string words = last_words(launch.folder);
-  if (process.ended_by != EndedBy::itself) return ended_by_us(process, limits, words);
+namespace {
+
+LaunchOutcome judge_end(const Launch& launch, const std::string& nonce, const ProcessResult& process,
+                        const std::string& words) {
   if (const int signal = signal_of(process); signal != 0) return ended_by_signal(signal, words);
   nlohmann::json answer = answer_in(launch.folder, nonce);
   if (answer.is_null()) return without_answer(launch, process, words);
@@ -152,6 +173,24 @@ LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std:
   if (const auto refusal = answer.find("refused"); refusal != answer.end()) return refused(*refusal);
   if (!answer.contains("ok")) return failure(Kind::no_result, 0, "the result file holds no result", words);
   return Finished{std::move(answer["ok"]), process.wall_seconds, process.cpu_seconds, process.peak_bytes};
+}
+
+}  // namespace
+
+LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
+                    const ProcessResult& process, const LaunchWatch& watch) {
+  const std::string words = last_words(launch.folder);
+  LaunchOutcome outcome = process.ended_by == EndedBy::itself
+                              ? judge_end(launch, nonce, process, words)
+                              : LaunchOutcome(ended_by_us(process, limits, words, watch.last()));
+  auto* failure = std::get_if<LaunchFailure>(&outcome);
+  if (failure != nullptr) failure->phase = watch.last().phase;
+  const bool has_reason =
+      failure != nullptr && (failure->kind == Kind::stopped || failure->kind == Kind::refused);
+  if (has_reason) return outcome;
+  // Whatever else is wrong, and even where it says that all is well.
+  const bool is_full = watch.ran_out_of_room() || (failure != nullptr && disk_is_full(launch.folder));
+  return is_full ? full_disk(launch, words) : outcome;
 }
 
 }  // namespace rnmbake

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "blender/launch.h"
+#include "blender/launch_watch.h"
 #include "process/run.h"
 
 namespace rnmbake {
 
-/// Reads result.json and stdout.log of the launch's folder.
+/// Most that a launch may print; Blender's own debug output stays far below it.
+inline constexpr std::size_t most_output_bytes = std::size_t{1} << 30;
+
+/// Reads result.json and stdout.log of the launch's folder. `watch`: what was seen while it ran.
 LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
-                    const ProcessResult& process);
+                    const ProcessResult& process, const LaunchWatch& watch);
 
 }  // namespace rnmbake

@@ -16,6 +16,8 @@ std::optional<ProgressEvent> event_in(const std::string& line) {
     event.what = json.value("what", "");
     event.done = json.value("done", 0.0);
     event.total = json.value("total", 0.0);
+    event.until = json.value("until", 0.0);
+    event.samples = json.value("samples", 0.0);
     return event;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;

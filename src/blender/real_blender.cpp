@@ -2,9 +2,10 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "blender/launch_watch.h"
 #include "blender/outcome.h"
-#include "blender/progress_tail.h"
 #include "process/run.h"
+#include "process/tree.h"
 
 #include <random>
 
@@ -15,6 +16,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr BlenderVersion first_with_offline_mode = {4, 2, 0};  // before, it is taken for a file name
+constexpr BlenderVersion first_with_named_levels = {5, 0, 0};  // of what is logged
+
+/// Cycles says how many samples it has taken of a bake, but only when asked to.
+std::vector<std::string> let_cycles_speak(const BlenderVersion& version) {
+  if (version < first_with_named_levels) return {"--verbose", "3"};
+  return {"--log", "cycles.*,render", "--log-level", "debug"};
+}
 
 std::string new_nonce() {
   std::random_device device;
@@ -60,6 +68,7 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   std::vector<std::string> argv = {info.executable.string(), "-b", "--factory-startup", "-noaudio",
                                    trust.allow_scripts ? "-y" : "-Y"};
   if (info.version >= first_with_offline_mode) argv.emplace_back("--offline-mode");
+  for (std::string& word : let_cycles_speak(info.version)) argv.push_back(std::move(word));
   if (launch.threads > 0) argv.insert(argv.end(), {"-t", std::to_string(launch.threads)});
   argv.insert(argv.end(), {"--python-exit-code", "86"});
   if (launch.scene) {
@@ -102,16 +111,20 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
   options.environment = private_environment(launch.folder, scripts.bytecode());
   options.output = launch.folder / "stdout.log";
   options.total_seconds = limits.total_seconds;
-  options.silence_seconds = limits.silence_seconds;
+  options.stall_seconds = limits.stall_seconds;
+  options.output_bytes = most_output_bytes;
   log::debug("starting {}", joined(options.argv));
-  ProgressTail tail(launch.folder / "progress.jsonl");
-  const ProcessResult process =
-      run_process(options, [&](const ProcessStatus&) { return tail.poll(on_progress); });
-  return judge(launch, limits, nonce, process);
+  LaunchWatch watch(launch.folder, on_progress);
+  const ProcessResult process = run_process(options, [&](const ProcessStatus&) { return watch.poll(); });
+  return judge(launch, limits, nonce, process, watch);
 }
 
 RealBlender::RealBlender(BlenderInfo info, const Options& options)
-    : info_(std::move(info)), trust_(options.trust), scripts_(options.scripts) {}
+    : info_(std::move(info)), trust_(options.trust), scripts_(options.scripts) {
+  if (const int ended = end_leftover_processes(); ended > 0) {
+    log::info("{} processes that a run had left when it was killed were ended", ended);
+  }
+}
 
 const BlenderInfo& RealBlender::complete_info() {
   if (info_.devices.empty()) probe_devices(info_, scripts_);

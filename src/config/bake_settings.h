@@ -94,6 +94,7 @@ struct RunSettings {
   int jobs = 0;                   // Blenders at a time; 0: chosen from cores and memory
   int threads = 0;                // for each Blender; 0: all cores shared among the jobs
   int timeout = 600;              // seconds without progress
+  int launch_timeout = 0;         // seconds; 0: no limit
   int retries = 1;
 };
 

@@ -300,6 +300,10 @@ std::vector<Setting> make_settings_table() {
       run("timeout", &Run::timeout, "end a Blender that makes no progress for so long")
           .range(1, 604'800)
           .unit("seconds"),
+      run("launch_timeout", &Run::launch_timeout, "end a Blender that takes so long, progress or not")
+          .range(0, 31'536'000)
+          .unit("seconds")
+          .empty_means("no limit"),
       run("retries", &Run::retries, "times that a failed launch is tried again")
           .range(0, 100)
           .only({Purpose::bake, Purpose::validate}),

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "blender/launch_watch.h"
 #include "pipeline/memory.h"
 #include "pipeline/scene_survey.h"
 #include "pipeline/work_progress.h"
@@ -25,6 +26,15 @@ struct Task {
   Dispatch dispatch;
   int retries_left = 0;
 };
+
+/// Launches that hung, none having succeeded: then it is the scene, and looking for an object is in vain. Two
+/// offenders, one in each half, come as far as four.
+constexpr int hangs_of_a_scene = 5;
+
+/// Every launch opens the scene alike, whatever it was to bake.
+bool is_before_baking(const LaunchFailure& failure) {
+  return failure.kind == LaunchFailure::Kind::hung && (failure.phase.empty() || failure.phase == "load");
+}
 
 /// Texels x samples: what the time of a bake is proportional to.
 double work_of(const Dispatch& dispatch, const Plan& plan) {
@@ -107,7 +117,7 @@ class Dispatcher {
 
   void run_task(Task task) {
     drop_settled(task.dispatch);
-    if (task.dispatch.units.empty()) return;
+    if (task.dispatch.units.empty() || given_up(task.dispatch)) return;
     Launch launch;
     launch.entry = "bake_entry.py";
     launch.scene = blend_;
@@ -157,35 +167,63 @@ class Dispatcher {
   }
 
   void recover(Task task, const LaunchFailure& failure) {
-    {
-      const std::lock_guard lock(mutex_);
-      ++timings_.launches;
-      ++timings_.failed_launches;
-    }
     progress_.finish(task.dispatch.units.front(), 0);
-    const bool hopeless =
-        failure.kind == LaunchFailure::Kind::stopped ||
-        (failure.kind == LaunchFailure::Kind::refused && failure.code == int(ExitCode::environment));
-    if (hopeless) throw_failure(failure);
+    if (is_hopeless(failure)) throw_failure(failure);
     if (!failure.details.empty()) log::debug("{}", failure.details);
-    if (task.dispatch.units.size() > 1) {
-      log::warn("{}; splitting {} bakes to find the offender", describe(failure), task.dispatch.units.size());
-      for (Dispatch& half : split(task.dispatch, context_.plan))
-        enqueue({std::move(half), task.retries_left});
-      return;
-    }
+    note_failure(failure);
+    if (given_up(task.dispatch)) return;
+    if (task.dispatch.units.size() > 1 && !is_before_baking(failure)) return divide(task, failure);
     const Unit& unit = context_.plan.units[task.dispatch.units.front()];
-    if (failure.kind != LaunchFailure::Kind::refused && task.retries_left > 0) {
+    const bool may_differ =
+        failure.kind != LaunchFailure::Kind::refused && failure.kind != LaunchFailure::Kind::outlasted;
+    if (may_differ && task.retries_left > 0) {
       log::warn("{} ({}): {}; trying again", context_.targets[unit.target].key, unit.name, describe(failure));
       enqueue({std::move(task.dispatch), task.retries_left - 1});
       return;
     }
-    desk_.give_up(unit.target, fmt::format("basis {}: {}", unit.name, describe(failure)));
+    give_up(task.dispatch, fmt::format("basis {}: {}", unit.name, describe(failure)));
   }
 
+  /// What every other launch would meet, too.
+  static bool is_hopeless(const LaunchFailure& failure) {
+    return failure.kind == LaunchFailure::Kind::stopped ||
+           (failure.kind == LaunchFailure::Kind::refused &&
+            (failure.code == int(ExitCode::environment) || failure.code == int(ExitCode::io)));
+  }
+
+  void divide(const Task& task, const LaunchFailure& failure) {
+    log::warn("{}; splitting {} bakes to find the offender", describe(failure), task.dispatch.units.size());
+    for (Dispatch& half : split(task.dispatch, context_.plan)) enqueue({std::move(half), task.retries_left});
+  }
+
+  void note_failure(const LaunchFailure& failure) {
+    const std::lock_guard lock(mutex_);
+    ++timings_.launches;
+    ++timings_.failed_launches;
+    if (failure.kind != LaunchFailure::Kind::hung) return;
+    ++hangs_;
+    const bool none_succeeded = timings_.launches == timings_.failed_launches;
+    if (verdict_.empty() && hangs_ >= hangs_of_a_scene && none_succeeded)
+      verdict_ = fmt::format("{} launches hung, whatever they were to bake: {}", hangs_, describe(failure));
+  }
+
+  /// Where the verdict on the scene has been spoken.
+  bool given_up(const Dispatch& dispatch) {
+    std::unique_lock lock(mutex_);
+    if (verdict_.empty()) return false;
+    lock.unlock();  // it is never changed again
+    give_up(dispatch, verdict_);
+    return true;
+  }
+
+  void give_up(const Dispatch& dispatch, const std::string& reason) {
+    for (const std::size_t unit : dispatch.units) desk_.give_up(context_.plan.units[unit].target, reason);
+  }
+
+  /// Behind what waits already: a launch that succeeds tells more than one that fails again.
   void enqueue(Task task) {
     const std::lock_guard lock(mutex_);
-    queue_.push_front(std::move(task));
+    queue_.push_back(std::move(task));
     changed_.notify_all();
   }
 
@@ -206,8 +244,7 @@ class Dispatcher {
 
   void show(const Dispatch& dispatch, const ProgressEvent& event) {
     const double done = event.total > 0 ? work_of(dispatch, context_.plan) * event.done / event.total : 0;
-    progress_.advance(dispatch.units.front(), done,
-                      event.what.empty() ? event.phase : event.phase + " " + event.what);
+    progress_.advance(dispatch.units.front(), done, in_words(event));
   }
 
   Workspace& workspace_;
@@ -222,6 +259,8 @@ class Dispatcher {
   int running_ = 0;
   std::exception_ptr error_;
   BakeTimings timings_;
+  int hangs_ = 0;
+  std::string verdict_;  // on the scene, where that is what hangs Blender
   WorkProgress progress_;
 };
 

@@ -23,7 +23,9 @@ struct BakeTimings {
 };
 
 /// Runs all dispatches of the plan. A failed one is split until the offender is alone (and then tried
-/// settings.run.retries times more); what remains is delivered, what failed is given up at the desk.
+/// settings.run.retries times more); what remains is delivered, what failed is given up at the desk. One that
+/// hung before it began to bake is tried again as a whole, and where launch after launch hangs, all is given
+/// up.
 /// Throws Interrupted where the user stops, Error where going on makes no sense (a full disk, no such
 /// device).
 [[nodiscard]] BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context,

@@ -7,7 +7,8 @@
 namespace rnmbake {
 namespace {
 
-/// Texels x samples of one bake call: minutes on two cores. The same on every machine, so that pictures are.
+/// Texels x samples of one bake call: minutes on two cores, which is what a crash costs. The same on every
+/// machine, so that pictures are.
 constexpr std::int64_t work_per_call = std::int64_t(1) << 27;
 
 std::int64_t available_memory() {

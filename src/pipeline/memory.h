@@ -12,8 +12,7 @@ namespace rnmbake {
 [[nodiscard]] std::int64_t memory_budget(const BakeSettings& settings);
 
 /// Pixels of one atlas of a dispatch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
-/// and less where one bake call would take long without a sign of life (several minutes: progress comes after
-/// each call).
+/// and less where one bake call would take more than several minutes.
 [[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
                                             const Dispatch& dispatch, int jobs);
 

@@ -8,7 +8,8 @@
 
 namespace rnmbake {
 
-/// Weights are about proportional to time. The estimate is by rule of three over what is done.
+/// Weights are about proportional to time. The estimate is by rule of three over what is done, once that is a
+/// tenth of all.
 class Steps {
  public:
   Steps(std::size_t count, double weight, const Clock& clock = steady_clock())
@@ -18,6 +19,9 @@ class Steps {
   void begin(const std::string& name, double weight);
 
   [[nodiscard]] double elapsed() const { return clock_.now() - started_; }
+
+  /// For the step that has begun and those after it; negative while nothing can be said.
+  [[nodiscard]] double seconds_left() const;
 
  private:
   std::size_t count_, at_ = 0;

@@ -3,12 +3,14 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "process/silence.h"
+#include "base/owner.h"
 #include "process/spawn.h"
+#include "process/stall.h"
 #include "process/stop.h"
 #include "process/tree.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <thread>
@@ -25,6 +27,7 @@ namespace rnmbake {
 namespace {
 
 constexpr double nap_seconds = 0.01;  // how late an end may be noticed
+constexpr int patience = 500;         // naps: what does not die of SIGKILL in 5 s waits for a disk
 
 /// The file that takes stdout and stderr; without a name it is unlinked at once and read back at the end.
 class OutputFile {
@@ -64,6 +67,16 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
+std::string new_mark() {
+  static std::atomic<unsigned> number = 0;
+  return owner_word() + '/' + std::to_string(number++);
+}
+
+ProcessOptions with_mark(ProcessOptions options, const std::string& mark) {
+  options.environment.emplace_back(launch_variable, mark);
+  return options;
+}
+
 /// One child from its start to its end.
 class Run {
  public:
@@ -72,14 +85,16 @@ class Run {
         tick_(tick),
         output_(options.output),
         started_(steady_clock().now()),
-        silence_(started_),
-        leader_(spawn(options, output_.descriptor())),
+        stall_(started_),
+        mark_(new_mark()),
+        leader_(spawn(with_mark(options, mark_), output_.descriptor())),
+        tree_(leader_, mark_),
         group_(leader_) {}
 
   /// Only an exception gets here with the child alive.
   ~Run() {
     if (!reaped_) {
-      kill_tree();
+      end_tree();
       reap();
     }
   }
@@ -96,7 +111,7 @@ class Run {
       enforce_limits();
       nap();
     }
-    kill_tree();  // what the leader left running
+    end_tree();  // what the leader left running
     reap();
     result_.wall_seconds = elapsed();
     if (tick_) tick_({result_.wall_seconds, result_.cpu_seconds, 0, output_.size()});
@@ -117,12 +132,12 @@ class Run {
   }
 
   void look() {
-    const TreeUsage usage = tree_usage(leader_);
+    const TreeUsage usage = tree_.look();
     result_.cpu_seconds = std::max(result_.cpu_seconds, usage.cpu_seconds);
     result_.peak_bytes = std::max({result_.peak_bytes, usage.peak_bytes, usage.resident_bytes});
     const std::size_t bytes = output_.size();
-    const bool alive = tick_ && tick_({elapsed(), usage.cpu_seconds, usage.resident_bytes, bytes});
-    silence_.observe(steady_clock().now(), usage.cpu_seconds, bytes, alive);
+    const bool progressed = tick_ && tick_({elapsed(), usage.cpu_seconds, usage.resident_bytes, bytes});
+    stall_.observe(steady_clock().now(), usage.cpu_seconds, usage.wants_core, progressed);
   }
 
   void enforce_limits() {
@@ -132,8 +147,10 @@ class Run {
       end(By::stop_request);
     } else if (options_.total_seconds > 0 && now - started_ > options_.total_seconds) {
       end(By::total_limit);
-    } else if (options_.silence_seconds > 0 && silence_.silent_seconds(now) > options_.silence_seconds) {
-      end(By::silence);
+    } else if (options_.stall_seconds > 0 && stall_.stalled_seconds() > options_.stall_seconds) {
+      end(By::stall);
+    } else if (options_.output_bytes > 0 && output_.size() > options_.output_bytes) {
+      end(By::output_limit);
     }
   }
 
@@ -145,19 +162,30 @@ class Run {
       signal_tree(SIGTERM);
       signal_tree(SIGCONT);  // a stopped process would not notice
     } else if (elapsed() - *ending_since_ > options_.grace_seconds) {
-      kill_tree();
+      signal_tree(SIGKILL);
     }
   }
 
-  void kill_tree() { signal_tree(SIGKILL); }
-
-  /// The group, and the descendants that left it.
-  void signal_tree(int signal) {
-    const std::vector<pid_t> members = tree_usage(leader_).members;  // before anyone becomes an orphan
-    ::kill(-leader_, signal);
-    for (const pid_t member : members) {
-      if (member != leader_ && ::getpgid(member) != leader_) ::kill(member, signal);
+  /// To the last process: what they fork before they die comes to us as an orphan.
+  void end_tree() {
+    for (int i = 0; i < patience; ++i) {
+      const std::vector<pid_t> left = signal_tree(SIGKILL);
+      if (std::all_of(left.begin(), left.end(), [&](pid_t id) { return id == leader_ && ended(); })) return;
+      nap();
     }
+  }
+
+  /// The group, and those that left it. Returns who they were, without those that were dead already.
+  std::vector<pid_t> signal_tree(int signal) {
+    std::vector<pid_t> members = tree_.look().members;  // before anyone becomes an orphan
+    ::kill(-leader_, signal);
+    std::erase_if(members, [&](pid_t id) {
+      if (id == leader_) return false;
+      if (::waitpid(id, nullptr, WNOHANG) == id) return true;  // an orphan of ours now
+      ::kill(id, signal);
+      return false;
+    });
+    return members;
   }
 
   void reap() {
@@ -183,8 +211,10 @@ class Run {
   const ProcessTick& tick_;
   OutputFile output_;
   double started_;
-  SilenceWatch silence_;
+  StallWatch stall_;
+  std::string mark_;
   pid_t leader_;
+  ProcessTree tree_;
   RunningGroup group_;
   std::optional<double> ending_since_;
   bool reaped_ = false;

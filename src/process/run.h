@@ -18,7 +18,8 @@ struct ProcessOptions {
   std::filesystem::path folder;  // to run in; empty: ours
   std::filesystem::path output;  // file for stdout and stderr; empty: captured into ProcessResult::output
   double total_seconds = 0;      // 0: no limit
-  double silence_seconds = 0;    // see process/silence.h; 0: no limit
+  double stall_seconds = 0;      // without progress, see process/stall.h; 0: no limit
+  std::size_t output_bytes = 0;  // that it may print, seen at every tick; 0: no limit
   double grace_seconds = 5;      // between SIGTERM and SIGKILL
   double tick_seconds = 0.25;    // between two looks at the process
 };
@@ -29,12 +30,12 @@ struct ProcessStatus {
   std::size_t resident_bytes = 0, output_bytes = 0;
 };
 
-/// Called at every tick and once after the end. True: the process showed a sign of life that its CPU time
-/// and output do not show. May throw: the process is ended, then the exception goes on.
+/// Called at every tick and once after the end. True: the process made progress, which neither CPU time nor
+/// output alone prove. May throw: the process is ended, then the exception goes on.
 using ProcessTick = std::function<bool(const ProcessStatus&)>;
 
 struct ProcessResult {
-  enum class EndedBy { itself, total_limit, silence, stop_request };
+  enum class EndedBy { itself, total_limit, stall, output_limit, stop_request };
   EndedBy ended_by = EndedBy::itself;
   int exit_code = 0;  // meaningless if `signal` is set
   int signal = 0;     // that ended the process; 0: it returned
@@ -48,8 +49,9 @@ struct ProcessResult {
 };
 
 /// Runs to the end. stdin is empty. If the program or a limit ends it, or a stop is requested
-/// (process/stop.h), the whole tree is gone when this returns; should the calling thread die, the kernel ends
-/// the child. Error(environment) if the program cannot be started, Error(io) if the output file cannot be
+/// (process/stop.h), the whole tree is gone when this returns, with those who left the group and the session,
+/// or whose parents ended before them; should the calling thread die, the kernel ends the child.
+/// Error(environment) if the program cannot be started, Error(io) if the output file cannot be
 /// made.
 ProcessResult run_process(const ProcessOptions& options, const ProcessTick& tick = {});
 

@@ -15,6 +15,7 @@
 #endif
 
 #include "base/error.h"
+#include "process/tree.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): not every libc declares it
 
@@ -140,6 +141,7 @@ pid_t spawn(const ProcessOptions& options, int output_descriptor) {
                        output_descriptor,
                        report[1],
                        ::getpid()};
+  adopt_orphans();
   const pid_t child = ::fork();
   if (child < 0) fail_starting(program, errno);
   if (child == 0) become(plan);

@@ -1,96 +1,134 @@
 #include "process/tree.h"
 
+#include "base/owner.h"
+#include "base/process_stat.h"
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <set>
-#include <sstream>
-#include <string>
+#include <iterator>
 
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill
+#include <sys/stat.h>
 #include <unistd.h>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 namespace rnmbake {
 
-namespace {
+namespace fs = std::filesystem;
 
-struct ProcessLine {
-  pid_t id = 0, parent = 0, group = 0;
-  double cpu_seconds = 0;
-  std::size_t resident_bytes = 0;
+struct ProcessTree::Process {
+  pid_t id = 0;
+  ProcessStat stat;
 };
 
-/// /proc/PID/stat, see proc(5). The name (field 2) may hold spaces and brackets, so count from the last ")".
-bool read_stat(const std::filesystem::path& folder, ProcessLine& line) {
-  std::ifstream stream(folder / "stat");
-  std::array<char, 4096> buffer{};
-  stream.read(buffer.data(), buffer.size());  // sets badbit where the process is gone; iterators would throw
-  const std::string text(buffer.data(), static_cast<std::size_t>(stream.gcount()));
-  const std::size_t name_end = text.rfind(')');
-  if (name_end == std::string::npos) return false;
-  std::istringstream fields(text.substr(name_end + 1));
-  std::string skipped;
-  double ticks[4] = {};
-  long long resident_pages = 0;
-  fields >> skipped >> line.parent >> line.group;    // 3 to 5
-  for (int i = 6; i <= 13; ++i) fields >> skipped;   // up to cmajflt
-  for (double& t : ticks) fields >> t;               // 14 to 17: utime, stime, cutime, cstime
-  for (int i = 18; i <= 23; ++i) fields >> skipped;  // up to vsize
-  fields >> resident_pages;                          // 24
-  if (!fields) return false;
-  line.cpu_seconds = (ticks[0] + ticks[1] + ticks[2] + ticks[3]) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  line.resident_bytes = static_cast<std::size_t>(resident_pages * sysconf(_SC_PAGESIZE));
-  return true;
+namespace {
+
+bool is_number(const std::string& name) {
+  return name.find_first_not_of("0123456789") == std::string::npos;
 }
 
-std::vector<ProcessLine> all_processes() {
-  std::vector<ProcessLine> lines;
+std::vector<pid_t> numbers_in(const fs::path& folder) {
+  std::vector<pid_t> numbers;
   std::error_code error;
-  for (std::filesystem::directory_iterator it("/proc", error), end; !error && it != end;
-       it.increment(error)) {
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    ProcessLine line;
-    line.id = static_cast<pid_t>(std::strtol(name.c_str(), nullptr, 10));
-    if (read_stat(it->path(), line)) lines.push_back(line);
+    if (is_number(name)) numbers.push_back(static_cast<pid_t>(std::strtol(name.c_str(), nullptr, 10)));
   }
-  return lines;
+  return numbers;
+}
+
+fs::path folder_of(pid_t id) {
+  return "/proc/" + std::to_string(id);
 }
 
 /// VmHWM: unlike ru_maxrss it starts anew with exec, so a big parent does not count.
 std::size_t high_water_bytes(pid_t id) {
-  std::ifstream stream("/proc/" + std::to_string(id) + "/status");
+  std::ifstream stream(folder_of(id) / "status");
   for (std::string line; std::getline(stream, line);) {
     if (line.rfind("VmHWM:", 0) == 0) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
   }
   return 0;
 }
 
+bool wants_core(pid_t id) {
+  const fs::path threads = folder_of(id) / "task";
+  const std::vector<pid_t> all = numbers_in(threads);
+  return std::any_of(all.begin(), all.end(), [&](pid_t thread) {
+    const auto stat = read_process_stat(threads / std::to_string(thread));
+    return stat && stat->state == 'R';
+  });
+}
+
+/// "" where there is none, or where the environment is not ours to read.
+std::string mark_of(pid_t id) {
+  const std::string beginning = launch_variable + std::string("=");
+  std::ifstream stream(folder_of(id) / "environ", std::ios::binary);
+  for (std::string line; std::getline(stream, line, '\0');) {
+    if (line.rfind(beginning, 0) == 0) return line.substr(beginning.size());
+  }
+  return "";
+}
+
 }  // namespace
 
-TreeUsage tree_usage(pid_t leader) {
-  const std::vector<ProcessLine> lines = all_processes();
-  std::set<pid_t> members = {leader};
-  for (const ProcessLine& line : lines) {
-    if (line.group == leader) members.insert(line.id);
+bool ProcessTree::is_ours(const Process& process) const {
+  if (process.id == leader_ || process.stat.group == leader_) return true;
+  if (sessions_.count(process.stat.session) != 0) return true;
+  const auto known = known_.find(process.id);
+  if (known != known_.end() && known->second == process.stat.start_ticks) return true;
+  return process.stat.parent == ::getpid() && mark_of(process.id) == mark_;
+}
+
+TreeUsage ProcessTree::look() {
+  std::vector<Process> processes;
+  for (const pid_t id : numbers_in("/proc")) {
+    if (const auto stat = read_process_stat(folder_of(id))) processes.push_back({id, *stat});
+  }
+  std::set<pid_t> members;
+  for (const Process& process : processes) {
+    if (is_ours(process)) members.insert(process.id);
   }
   for (bool grew = true; grew;) {
     grew = false;
-    for (const ProcessLine& line : lines) {
-      if (members.count(line.parent) != 0 && members.insert(line.id).second) grew = true;
+    for (const Process& process : processes) {
+      if (members.count(process.stat.parent) != 0 && members.insert(process.id).second) grew = true;
     }
   }
   TreeUsage usage;
-  for (const ProcessLine& line : lines) {
-    if (members.count(line.id) == 0) continue;
-    usage.cpu_seconds += line.cpu_seconds;
-    usage.resident_bytes += line.resident_bytes;
-    usage.peak_bytes = std::max(usage.peak_bytes, high_water_bytes(line.id));
-    usage.members.push_back(line.id);
+  known_.clear();
+  for (const auto& [id, stat] : processes) {
+    if (members.count(id) == 0) continue;
+    known_[id] = stat.start_ticks;
+    if (stat.session == id) sessions_.insert(id);
+    usage.cpu_seconds += stat.cpu_seconds;
+    usage.resident_bytes += stat.resident_bytes;
+    usage.peak_bytes = std::max(usage.peak_bytes, high_water_bytes(id));
+    usage.wants_core = usage.wants_core || wants_core(id);
+    usage.members.push_back(id);
   }
   return usage;
+}
+
+void adopt_orphans() {
+#ifdef PR_SET_CHILD_SUBREAPER
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+#endif
+}
+
+int end_leftover_processes() {
+  int ended = 0;
+  for (const pid_t id : numbers_in("/proc")) {
+    struct stat status {};
+    if (::stat(folder_of(id).c_str(), &status) != 0 || status.st_uid != ::geteuid()) continue;
+    const std::string mark = mark_of(id);
+    if (owner_is_gone(mark.substr(0, mark.find('/'))) && ::kill(id, SIGKILL) == 0) ++ended;
+  }
+  return ended;
 }
 
 }  // namespace rnmbake

@@ -1,6 +1,8 @@
 #include "base/files.h"
 
 #include "base/error.h"
+#include "base/leftovers.h"
+#include "base/owner.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -135,6 +137,56 @@ TEST(TempFolder, MovesWithItsContent) {
     EXPECT_EQ(second.path(), path);
   }
   EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(Owner, KnowsTheDeadOfItsOwnHost) {
+  const std::string us = owner_word();
+  EXPECT_FALSE(owner_is_gone(us));
+  EXPECT_TRUE(owner_is_gone(us + '0')) << "the number is ours, the start is not";
+  std::string elsewhere = us;
+  elsewhere[0] = elsewhere[0] == 'x' ? 'y' : 'x';
+  EXPECT_FALSE(owner_is_gone(elsewhere + '0')) << "another host";
+  std::string before = us;
+  before[9] = before[9] == 'x' ? 'y' : 'x';
+  EXPECT_TRUE(owner_is_gone(before)) << "the machine has started anew since";
+  for (const char* nonsense : {"", "-", "---", "a-b-c-d"}) EXPECT_FALSE(owner_is_gone(nonsense)) << nonsense;
+}
+
+TEST(Leftovers, OnlyWhatADeadOwnerLeftGoes) {
+  const TempFolder folder;
+  const std::string ours = owner_word(), dead = ours + '0';
+  for (const std::string& name :
+       {"rnmbake-" + dead + "-AbCdEf", "rnmbake-" + ours + "-AbCdEf", "rnmbake-" + dead + "-kept00",
+        std::string("rnmbake-XyZ123"), std::string("rnmbake-x-y")}) {
+    make_folders(folder.path() / name / "below");
+  }
+  mark_as_kept(folder.path() / ("rnmbake-" + dead + "-kept00"));
+  for (const std::string& name :
+       {".tmp-" + dead + "-0123456789ab.exr", ".tmp-" + ours + "-0123456789ab.exr",
+        std::string(".tmp-0123456789ab.exr"), "floor-" + dead + "-0123456789ab.exr"}) {
+    const std::ofstream file(folder.path() / name);
+  }
+  fs::create_symlink("/tmp", folder.path() / ("rnmbake-" + dead + "-symbol"));
+  sweep_leftovers(folder.path());
+  EXPECT_FALSE(fs::exists(folder.path() / ("rnmbake-" + dead + "-AbCdEf")));
+  EXPECT_FALSE(fs::exists(folder.path() / (".tmp-" + dead + "-0123456789ab.exr")));
+  EXPECT_EQ(files_in(folder.path()), 10U - 2U);
+  const fs::path late = folder.path() / (".tmp-" + dead + "-late.exr");
+  { const std::ofstream file(late); }
+  sweep_leftovers(folder.path());
+  EXPECT_TRUE(fs::exists(late)) << "once is enough";
+}
+
+TEST(TempFolder, KeptOnesAreMarked) {
+  const TempFolder parent;
+  fs::path path;
+  {
+    TempFolder folder(parent.path());
+    folder.keep();
+    path = folder.path();
+  }
+  EXPECT_TRUE(fs::exists(path / ".kept"));
+  EXPECT_NE(path.filename().string().find(owner_word()), std::string::npos);
 }
 
 TEST(MakeFolders, NamesAFileInTheWay) {

@@ -48,7 +48,7 @@ TEST(Progress, DrawsOneBarThatFitsTheLineAndGoesAway) {
   }
   ASSERT_EQ(recorder.said.size(), 3u);
   EXPECT_EQ(recorder.said[0], "baking [........................]   0 % a");
-  EXPECT_EQ(recorder.said[1].substr(0, 52), "baking [############............]  50 %, 10 s left x");
+  EXPECT_EQ(recorder.said[1].substr(0, 50), "baking [############............]  50 %, 13 s left");
   EXPECT_LE(recorder.said[1].size(), 79u);
   EXPECT_EQ(recorder.said[2], "");
 }
@@ -56,13 +56,53 @@ TEST(Progress, DrawsOneBarThatFitsTheLineAndGoesAway) {
 TEST(Progress, NeverGoesBackAndTakesNoNonsense) {
   Recorder recorder;
   Progress progress("x", recorder.options(ProgressOptions::Style::lines));
-  progress.update(0.5, "");
-  progress.update(0.25, "");
-  progress.update(std::numeric_limits<double>::quiet_NaN(), "");
+  progress.update(0.25, "y");
   recorder.clock.seconds += 10;
-  EXPECT_DOUBLE_EQ(progress.eta_seconds(), 10);
-  progress.update(7, "");
-  EXPECT_EQ(recorder.said.at(0), "x: 100 %, 0 s left");
+  progress.update(0.5, "y");
+  progress.update(0.25, "y");
+  progress.update(std::numeric_limits<double>::quiet_NaN(), "y");
+  EXPECT_DOUBLE_EQ(progress.eta_seconds(), 20);
+  recorder.clock.seconds += 10;
+  progress.update(7, "y");
+  EXPECT_EQ(recorder.said.at(1), "x: 100 %, 0 s left, at y");
+}
+
+// A bake of 27 s whose scene takes 20 s to load: by rule of three from its beginning it would have been 33
+// min.
+TEST(Progress, WhatComesBeforeTheWorkIsNoPartOfTheRate) {
+  Recorder recorder;
+  Progress progress("baking", recorder.options(ProgressOptions::Style::lines));
+  progress.update(0, "load");
+  recorder.clock.seconds += 20;
+  progress.update(0.01, "bake");
+  EXPECT_LT(progress.eta_seconds(), 0) << "one point is no rate";
+  recorder.clock.seconds += 3.5;
+  progress.update(0.51, "bake");
+  EXPECT_NEAR(progress.eta_seconds(), 3.43, 0.01);
+}
+
+TEST(Progress, TimeRunsDownWhileNothingAdvances) {
+  Recorder recorder;
+  Progress progress("x", recorder.options(ProgressOptions::Style::lines));
+  progress.update(0.1, "");
+  recorder.clock.seconds += 10;
+  progress.update(0.6, "");
+  EXPECT_DOUBLE_EQ(progress.eta_seconds(), 8);
+  recorder.clock.seconds += 5;
+  progress.update(0.6, "");
+  EXPECT_DOUBLE_EQ(progress.eta_seconds(), 3);
+  recorder.clock.seconds += 5;
+  progress.update(0.6, "y");
+  EXPECT_LT(progress.eta_seconds(), 0) << "overdue: nobody knows";
+  EXPECT_EQ(recorder.said.back(), "x: 60 %, at y");
+}
+
+TEST(Progress, SaysNoShareWhereThereIsNone) {
+  Recorder recorder;
+  Progress progress("reading the scene", recorder.options(ProgressOptions::Style::lines));
+  recorder.clock.seconds += 10;
+  progress.update(std::numeric_limits<double>::quiet_NaN(), "evaluate Cube");
+  EXPECT_EQ(recorder.said.at(0), "reading the scene: at evaluate Cube");
 }
 
 TEST(Progress, IsSilentWhenOff) {

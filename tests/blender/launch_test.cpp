@@ -3,6 +3,7 @@
 #include "blender/progress_tail.h"
 #include "process/stop.h"
 
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
@@ -83,9 +84,9 @@ TEST(Launch, GivesTheResultAndTheProgress) {
   EXPECT_EQ(result.result.at("home"), (bench.launch.folder / "home").string());
   EXPECT_TRUE(holds(result.result.at("tmp"), (bench.launch.folder / "tmp").string()));
   EXPECT_EQ(result.result.at("threads"), 1);
-  ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].what, "Cube");
-  EXPECT_EQ(events[0].total, 2);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().what, "Cube");
+  EXPECT_EQ(events.back().total, 2);
   EXPECT_GT(result.cpu_seconds, 0.05);
   EXPECT_GT(result.wall_seconds, 0.05);
   EXPECT_GT(result.peak_bytes, std::size_t{20} << 20);
@@ -136,13 +137,71 @@ TEST(Launch, QuittingEarlyIsNoResult) {
   EXPECT_EQ(failure_of(bench.with(*blender)).kind, Kind::no_result);
 }
 
-TEST(Launch, TooMuchTimeOrSilenceIsHung) {
+TEST(Launch, IsEndedWhereItGetsNowhereOrTakesTooLong) {
   REQUIRE_BLENDER(blender);
-  Bench bench("    time.sleep(60)");
-  EXPECT_EQ(failure_of(bench.with(*blender, {600, 4})).kind, Kind::hung);
-  const LaunchFailure silent = failure_of(bench.with(*blender, {4, 0}));
-  EXPECT_EQ(silent.kind, Kind::hung);
-  EXPECT_TRUE(holds(silent.message, "did nothing for 4 s")) << silent.message;
+  Bench bench("    task.progress('evaluate', 'Cube')\n    while True: print('busy', time.time())");
+  const LaunchFailure hung = failure_of(bench.with(*blender, {4, 0}));
+  EXPECT_EQ(hung.kind, Kind::hung) << hung.message;
+  EXPECT_EQ(hung.message, "Blender made no progress for 4 s and was ended, at evaluate Cube");
+  EXPECT_EQ(hung.phase, "evaluate");
+  Bench endless(
+      "    for n in range(10000):\n        task.progress('evaluate', str(n))\n        time.sleep(0.1)");
+  const LaunchFailure outlasted = failure_of(endless.with(*blender, {600, 4}));
+  EXPECT_EQ(outlasted.kind, Kind::outlasted) << outlasted.message;
+  EXPECT_TRUE(holds(outlasted.message, "longer than the limit of 4 s")) << outlasted.message;
+}
+
+// A loop of Blender's own, within which no script says anything: the samples of one bake call are progress.
+TEST(Launch, KnowsHowFarABakeCallIs) {
+  REQUIRE_BLENDER(blender);
+  Bench bench(R"(
+    scene, ob = bpy.context.scene, bpy.context.object
+    scene.render.engine = 'CYCLES'
+    scene.cycles.samples, scene.cycles.use_adaptive_sampling, scene.cycles.use_denoising = 48, False, False
+    image = bpy.data.images.new('x', 64, 64)
+    material = bpy.data.materials.new('m')
+    material.use_nodes = True
+    ob.data.materials.clear()
+    ob.data.materials.append(material)
+    nodes = material.node_tree.nodes
+    nodes.active = nodes.new('ShaderNodeTexImage')
+    nodes.active.image = image
+    task.progress('bake', 'atlas 1 of 1', 0, 100, 100, 48)
+    bpy.ops.object.bake(type='DIFFUSE', margin=0)
+    time.sleep(0.6)
+    return {})");
+  std::vector<ProgressEvent> events;
+  finished(bench.with(*blender, {}, [&](const ProgressEvent& e) { events.push_back(e); }));
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().done, 100);
+  EXPECT_EQ(events.back().detail, "48 of 48 samples");
+}
+
+// Python's own writing, a progress file without end, and pictures of Blender's, which says that it has
+// finished.
+TEST(Launch, AFullDiskIsNamed) {
+  REQUIRE_BLENDER(blender);
+  for (const char* body :
+       {"    open(task.path('a'), 'wb').write(bytes(1 << 24))\n    return {}",
+        "    while True: task.progress('evaluate', 'x' * 1000)",
+        "    bpy.context.scene.render.engine = 'CYCLES'\n    bpy.context.scene.cycles.samples = 1\n"
+        "    bpy.context.scene.cycles.use_denoising = False\n"
+        "    bpy.context.scene.render.image_settings.file_format = 'OPEN_EXR'\n"
+        "    bpy.context.scene.render.image_settings.color_depth = '32'\n"
+        "    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 512\n"
+        "    bpy.context.scene.render.filepath = task.path('a.exr')\n"
+        "    bpy.ops.render.render(write_still=True)\n    return {}"}) {
+    Bench bench(body);
+    const std::string folder = bench.launch.folder.string();
+    if (std::system(("mount -t tmpfs -o size=256k none " + folder + " 2>/dev/null").c_str()) != 0)
+      GTEST_SKIP() << "SKIPPED: a small tmpfs needs root";
+    const LaunchFailure failure = failure_of(bench.with(*blender));
+    EXPECT_EQ(std::system(("umount " + folder).c_str()), 0);
+    EXPECT_EQ(failure.kind, Kind::refused) << failure.message << failure.details;
+    EXPECT_EQ(failure.code, static_cast<int>(ExitCode::io));
+    EXPECT_TRUE(holds(failure.message, "the disk of " + folder + " is full")) << failure.message;
+    EXPECT_TRUE(holds(failure.message, "TMPDIR")) << failure.message;
+  }
 }
 
 TEST(Launch, ASceneThatCannotBeOpenedIsRefused) {
@@ -196,7 +255,11 @@ TEST(FakeLaunch, FaultsAreToldApart) {
   EXPECT_EQ(killed.kind, Kind::killed);
   EXPECT_TRUE(holds(killed.message, "memory")) << killed.message;
   EXPECT_EQ(killed.details, "last words\n");
-  EXPECT_EQ(failure_of(bench.with_fake("sleep 60", {600, 0.5})).kind, Kind::hung);
+  EXPECT_EQ(failure_of(bench.with_fake("sleep 60", {600, 0.5})).kind, Kind::outlasted);
+  const LaunchFailure quiet = failure_of(bench.with_fake("sleep 60", {0.5, 0}));
+  EXPECT_EQ(quiet.kind, Kind::hung);
+  EXPECT_TRUE(holds(quiet.message, "at start-up")) << quiet.message;
+  EXPECT_TRUE(quiet.phase.empty());
 }
 
 TEST(FakeLaunch, OnlyTheRightNonceAndExitZeroCount) {
@@ -225,15 +288,19 @@ TEST(LaunchArgv, GatesWhatOldBlendersDoNotKnow) {
   const std::string entry = (scripts.path() / "probe_entry.py").string();
   const std::string guard = (scripts.path() / "guard.py").string();
   EXPECT_EQ(launch_argv(info, scripts, {false}, launch),
-            (std::vector<std::string>{"/b", "-b", "--factory-startup", "-noaudio", "-Y", "-t", "3",
-                                      "--python-exit-code", "86", "--python", guard, "/s.blend", "--python",
-                                      entry, "--", "/f/request.json"}));
+            (std::vector<std::string>{"/b", "-b", "--factory-startup", "-noaudio", "-Y", "--verbose", "3",
+                                      "-t", "3", "--python-exit-code", "86", "--python", guard, "/s.blend",
+                                      "--python", entry, "--", "/f/request.json"}));
   info.version = {4, 2, 0};
   launch.threads = 0;
   EXPECT_EQ(launch_argv(info, scripts, {true}, launch),
             (std::vector<std::string>{"/b", "-b", "--factory-startup", "-noaudio", "-y", "--offline-mode",
-                                      "--python-exit-code", "86", "/s.blend", "--python", entry, "--",
-                                      "/f/request.json"}));
+                                      "--verbose", "3", "--python-exit-code", "86", "/s.blend", "--python",
+                                      entry, "--", "/f/request.json"}));
+  info.version = {5, 0, 0};
+  const std::vector<std::string> argv = launch_argv(info, scripts, {true}, launch);
+  EXPECT_NE(std::find(argv.begin(), argv.end(), "cycles.*,render"), argv.end());
+  EXPECT_EQ(std::find(argv.begin(), argv.end(), "--verbose"), argv.end());
 }
 
 TEST(ProgressTail, WaitsForWholeLinesAndSkipsNonsense) {

@@ -35,6 +35,12 @@ auto offender(std::size_t target, std::size_t basis, const LaunchFailure& how) {
   };
 }
 
+LaunchFailure hung(const std::string& phase) {
+  LaunchFailure how = failure(Kind::hung, "600 s without progress");
+  how.phase = phase;
+  return how;
+}
+
 std::size_t launches_of(const FakeBlender& blender, const Baked& what) {
   return static_cast<std::size_t>(std::count(blender.launches.begin(), blender.launches.end(), what));
 }
@@ -112,7 +118,7 @@ TEST(Dispatcher, TriesALoneOffenderAsOftenAsAskedFor) {
     BakeSettings settings;
     settings.run.retries = retries;
     Bake bake(2, settings);
-    bake.blender.fault = offender(1, 1, failure(Kind::hung, "600 s without a sign of life"));
+    bake.blender.fault = offender(1, 1, hung("bake"));
     (void)bake.run();
     EXPECT_EQ(launches_of(bake.blender, {{1, 1}}), static_cast<std::size_t>(retries + 1));
   }
@@ -151,11 +157,10 @@ TEST(Dispatcher, DropsTheOtherBasesOfWhatWasGivenUp) {
 }
 
 TEST(Dispatcher, SaysWhatHelps) {
-  const std::map<Kind, std::string> remedies{{Kind::hung, "raise --timeout"},
-                                             {Kind::killed, "fewer --jobs"},
-                                             {Kind::crashed, "--exclude"},
-                                             {Kind::script, "defect"},
-                                             {Kind::no_result, "--keep-temporary"}};
+  const std::map<Kind, std::string> remedies{
+      {Kind::hung, "raise --timeout"}, {Kind::outlasted, "raise --launch-timeout"},
+      {Kind::killed, "fewer --jobs"},  {Kind::crashed, "--exclude"},
+      {Kind::script, "defect"},        {Kind::no_result, "--keep-temporary"}};
   for (const auto& [kind, remedy] : remedies) {
     Bake bake(1);
     const LaunchFailure how =
@@ -176,6 +181,70 @@ TEST(Dispatcher, EndsWhereNothingWorks) {
   for (std::size_t t = 0; t < 7; ++t) EXPECT_FALSE(reason_of(bake.desk, t).empty());
   EXPECT_LE(bake.blender.launches.size(), 7U * 4 * 3);
   EXPECT_TRUE(bake.scene.files().empty());
+}
+
+TEST(Dispatcher, AHangBeforeTheBakeIsNotSplit) {
+  for (const char* phase : {"", "load"}) {
+    Bake bake(5);
+    int left = 1;
+    bake.blender.fault = [&](const Baked&) { return left-- > 0 ? std::optional(hung(phase)) : std::nullopt; };
+    const BakeTimings timings = bake.run();
+    EXPECT_EQ(timings.launches, 2);
+    for (std::size_t t = 0; t < 5; ++t) EXPECT_TRUE(is_delivered(bake.desk, t));
+  }
+  Bake never(5);
+  never.blender.fault = [](const Baked&) { return hung("load"); };
+  EXPECT_EQ(never.run().launches, 2);
+  for (std::size_t t = 0; t < 5; ++t) EXPECT_FALSE(reason_of(never.desk, t).empty());
+}
+
+TEST(Dispatcher, WhereEveryLaunchHangsItIsTheScene) {
+  for (const Mode mode : {Mode::scene, Mode::object, Mode::basis}) {
+    BakeSettings settings = with_dispatch(mode);
+    settings.run.jobs = 1;
+    Bake bake(9, settings);
+    bake.blender.fault = [](const Baked&) { return hung("bake"); };
+    EXPECT_EQ(bake.run().launches, 5);
+    for (std::size_t t = 0; t < 9; ++t) {
+      EXPECT_NE(reason_of(bake.desk, t).find("5 launches hung"), std::string::npos)
+          << reason_of(bake.desk, t);
+      EXPECT_NE(reason_of(bake.desk, t).find("--timeout"), std::string::npos) << reason_of(bake.desk, t);
+    }
+  }
+}
+
+TEST(Dispatcher, FindsWhatHangsAmongWhatDoesNot) {
+  Bake bake(16);
+  bake.blender.fault = [](const Baked& baked) {
+    return baked.contains({3, 1}) || baked.contains({12, 0}) ? std::optional(hung("bake")) : std::nullopt;
+  };
+  (void)bake.run();
+  for (std::size_t t = 0; t < 16; ++t) EXPECT_EQ(is_delivered(bake.desk, t), t != 3 && t != 12);
+}
+
+TEST(Dispatcher, AFullDiskEndsTheRunAtOnce) {
+  Bake bake(4);
+  bake.blender.fault = [](const Baked&) {
+    return failure(Kind::refused, "the disk of /tmp/x is full", int(ExitCode::io));
+  };
+  try {
+    (void)bake.run();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    EXPECT_STREQ(error.what(), "the disk of /tmp/x is full");
+  }
+  EXPECT_EQ(bake.blender.launches.size(), 1U);
+}
+
+TEST(Dispatcher, WhatTookTooLongIsSplitButNotTriedAgain) {
+  BakeSettings settings;
+  settings.run.retries = 3;
+  Bake bake(2, settings);
+  bake.blender.fault = offender(1, 1, failure(Kind::outlasted, "longer than 60 s"));
+  (void)bake.run();
+  EXPECT_EQ(launches_of(bake.blender, {{1, 1}}), 1U);
+  EXPECT_TRUE(is_delivered(bake.desk, 0));
 }
 
 TEST(Dispatcher, TakesShortPicturesForAFailedLaunch) {

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/owner.h"
 #include "process/stop.h"
+#include "process/tree.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -12,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -148,23 +151,52 @@ TEST(RunProcess, DescendantsThatLeaveTheGroupEndToo) {
   EXPECT_TRUE(is_gone_soon(number_in(folder.path() / "far")));
 }
 
-TEST(RunProcess, SilenceIsNoCpuTimeNoOutputNoSignOfLife) {
-  ProcessOptions options = sh("sleep 60");
-  options.silence_seconds = 1.2;
-  const ProcessResult quiet = run_process(options);
-  EXPECT_EQ(quiet.ended_by, EndedBy::silence);
-  EXPECT_LT(quiet.wall_seconds, 5);
+// The daemon's way out: a session of its own, a parent that ends at once, an environment without a mark or
+// with it, a fork after each look.
+TEST(RunProcess, DaemonsEndToo) {
+  const TempFolder folder;
+  ProcessOptions options =
+      sh("setsid sh -c 'sleep 60 & echo $! > marked' & wait\n"
+         "env -i setsid sh -c 'sleep 0.5; sleep 60 & echo $! > nameless' & sleep 0.3; echo $! > before; "
+         "sleep 0.6");
+  options.folder = folder.path();
+  EXPECT_TRUE(run_process(options).succeeded());
+  EXPECT_TRUE(is_gone(number_in(folder.path() / "marked")));
+  EXPECT_TRUE(is_gone(number_in(folder.path() / "nameless"))) << "its parent was seen";
+}
 
-  options.argv = {"sh", "-c", "i=0; while [ $i -lt 12 ]; do echo x; sleep 0.25; i=$((i+1)); done"};
-  EXPECT_TRUE(run_process(options).succeeded()) << "it printed";
+TEST(RunProcess, OrphansOfOthersAreLeftAlone) {
+  const TempFolder folder;
+  ProcessOptions slow = sh("setsid sh -c 'sleep 60 & echo $! > orphan' & wait; : > ready; read x < go");
+  slow.folder = folder.path();
+  ASSERT_EQ(::mkfifo((folder.path() / "go").c_str(), 0600), 0);
+  std::thread other([&] { EXPECT_TRUE(run_process(slow).succeeded()); });
+  for (int i = 0; i < 500 && !std::filesystem::exists(folder.path() / "ready"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  run_process(sh("setsid sh -c 'sleep 60 &' & wait"));
+  EXPECT_FALSE(is_gone(number_in(folder.path() / "orphan")));
+  std::ofstream(folder.path() / "go") << "go\n";
+  other.join();
+  EXPECT_TRUE(is_gone(number_in(folder.path() / "orphan")));
+}
 
+TEST(RunProcess, CpuTimeAndOutputAreNoProgress) {
+  ProcessOptions options = sh("while :; do echo x; done");
+  options.output = "/dev/null";
+  options.stall_seconds = 1.2;
+  const ProcessResult busy = run_process(options);
+  EXPECT_EQ(busy.ended_by, EndedBy::stall);
+  EXPECT_GE(busy.cpu_seconds, 1.1) << "it was given that much, however crowded the machine";
+  options.argv = {"sleep", "60"};
+  EXPECT_EQ(run_process(options).ended_by, EndedBy::stall);
   options.argv = {"sleep", "3"};
   EXPECT_TRUE(run_process(options, [](const ProcessStatus&) { return true; }).succeeded()) << "it progressed";
+}
 
-  options.argv = {"timeout", "3", "sh", "-c", "while :; do :; done"};
-  const ProcessResult busy = run_process(options);
-  EXPECT_EQ(busy.ended_by, EndedBy::itself) << "it used the CPU";
-  EXPECT_EQ(busy.exit_code, 124);
+TEST(RunProcess, EndsWhatPrintsWithoutEnd) {
+  ProcessOptions options = sh("while :; do echo 0123456789; done");
+  options.output_bytes = 10000;
+  EXPECT_EQ(run_process(options).ended_by, EndedBy::output_limit);
 }
 
 TEST(RunProcess, CountsTheTreesCpuTime) {
@@ -241,6 +273,29 @@ TEST(StopRequest, TheSecondSignalKillsAtOnce) {
   ASSERT_EQ(::waitpid(driver, &status, 0), driver);
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(is_gone_soon(child));
+}
+
+pid_t start_marked(const std::string& owner) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::setenv(launch_variable, (owner + "/0").c_str(), 1);
+  ::execlp("sleep", "sleep", "60", nullptr);
+  ::_exit(127);
+}
+
+TEST(LeftoverProcesses, EndWhereTheirOwnerIsGone) {
+  const pid_t ours = start_marked(owner_word());
+  const pid_t orphan = start_marked(owner_word() + '0');  // our number, but another start time
+  int ended = 0;
+  for (int i = 0; i < 500 && ended == 0; ++i) {  // until exec has put the mark where others see it
+    ended = end_leftover_processes();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(ended, 1);
+  EXPECT_TRUE(is_gone_soon(orphan));
+  EXPECT_FALSE(is_gone(ours));
+  ::kill(ours, SIGKILL);
+  for (const pid_t child : {ours, orphan}) ::waitpid(child, nullptr, 0);
 }
 
 TEST(StopRequest, ChildrenDieWithUs) {
