@@ -188,7 +188,7 @@ TEST(Launch, AFullDiskIsNamed) {
         "    bpy.context.scene.cycles.use_denoising = False\n"
         "    bpy.context.scene.render.image_settings.file_format = 'OPEN_EXR'\n"
         "    bpy.context.scene.render.image_settings.color_depth = '32'\n"
-        "    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 512\n"
+        "    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 1024\n"
         "    bpy.context.scene.render.filepath = task.path('a.exr')\n"
         "    bpy.ops.render.render(write_still=True)\n    return {}"}) {
     Bench bench(body);
