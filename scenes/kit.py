@@ -9,12 +9,15 @@ Every mesh gets two UV layers:
 """
 
 import math
+import os
+from array import array
 
 import bpy
 from mathutils import Matrix, Vector
 
 DETAIL_UV = "UVMap"
 LIGHTMAP_UV = "Lightmap"
+BESIDE = "rnmbake beside"  # on pictures: where they lie, from the .blend's folder
 
 
 # ---- the file ------------------------------------------------------------------------------------
@@ -44,7 +47,25 @@ def start(exposure=0.0, look="None"):
 
 
 def save(path):
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, check_existing=False)
+    """The .blend, and beside it the pictures that it finds by relative paths."""
+    for image in bpy.data.images:
+        if BESIDE in image:
+            _write_beside(image, os.path.dirname(path))
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, check_existing=False, relative_remap=False)
+
+
+def picture_beside(folder, name, size, colors):
+    """A square sRGB picture that becomes FOLDER/NAME.png beside the .blend when that is saved."""
+    image = bpy.data.images.new(name, size, size, alpha=False)
+    image.pixels.foreach_set(array("f", [value for color in colors for value in (*color, 1.0)]))
+    image[BESIDE] = f"{folder}/{name}.png"
+    return image
+
+
+def _write_beside(image, folder):
+    image.filepath_raw, image.file_format = os.path.join(folder, image[BESIDE]), "PNG"
+    image.save()
+    image.filepath_raw = "//" + image[BESIDE]
 
 
 # ---- meshes --------------------------------------------------------------------------------------

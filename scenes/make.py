@@ -15,6 +15,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 sys.dont_write_bytecode = True
 
+import attic  # noqa: E402
 import cave  # noqa: E402
 import closed_forms  # noqa: E402
 import cornell  # noqa: E402
@@ -36,6 +37,7 @@ SCENES = {
     "hall": hall.build,
     "cave": cave.build,
     "panels": panels.build,
+    "attic": attic.build,
 }
 
 

@@ -35,6 +35,21 @@ foreach(CHECK files.Scenes files.Folders content.Content content.Names content.S
   set_tests_properties(bad_input.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
 endforeach()
 
+# The scenes that ./dev scenes built, against what their README promises.
+find_program(RNMBAKE_TEST_BLENDER blender)
+if(RNMBAKE_TEST_BLENDER)
+  add_test(NAME scenes.check
+    COMMAND ${RNMBAKE_TEST_BLENDER} -b --factory-startup -noaudio --python-exit-code 86
+            --python ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/scenes_check.py -- ${CMAKE_SOURCE_DIR}/scenes/built)
+  set_tests_properties(scenes.check PROPERTIES LABELS blender TIMEOUT 600)
+endif()
+
+# The scene that is like other people's files, through every command.
+add_test(NAME attic.check
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/attic_check.py -v)
+set_tests_properties(attic.check PROPERTIES LABELS blender TIMEOUT 1200)
+
 add_test(NAME manifest.schema
   COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
