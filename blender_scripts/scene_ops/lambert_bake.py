@@ -59,7 +59,7 @@ def replace_materials(task, surfaces):
         for group in groups:
             if not group.varying:
                 assign(group, {})
-    warnings += opaque_warnings(groups)
+    warnings += lost_warnings(groups)
     for source in sources.values():
         source.remove_copies()
     return warnings
@@ -69,13 +69,14 @@ def make_groups(surfaces, sources):
     groups = {}
     for surface in surfaces:
         mesh, materials = surface.data, surface.materials or [None]
-        for material in materials:
-            if material not in sources:
-                sources[material] = Source(material)
+        kinds = [(material, surface.is_copy) for material in materials]
+        for kind in kinds:
+            if kind not in sources:
+                sources[kind] = Source(*kind)
         while len(mesh.materials) < len(materials):
             mesh.materials.append(None)
-        group = Group(surface, [sources[material] for material in materials])
-        look = (mesh.name, tuple(materials), None if group.mesh_bound else surface.name)
+        group = Group(surface, [sources[kind] for kind in kinds])
+        look = (mesh.name, tuple(kinds), None if group.mesh_bound else surface.name)
         groups.setdefault(look, group).surfaces.append(surface)
     return list(groups.values())
 
@@ -271,14 +272,13 @@ def above_one(name):
            "reflects more than it gets"
 
 
-def opaque_warnings(groups):
-    """One line for each material that lets light through and no longer does."""
+def lost_warnings(groups):
+    """One line for each material that lets light through and no longer does, or had a volume."""
     shown = {}
     for group in groups:
         used = used_slots(group.mesh, len(group.sources))
-        for source in {source for slot, source in enumerate(group.sources) if slot in used and source.opaque_now}:
+        for source in {source for slot, source in enumerate(group.sources) if slot in used and source.lost()}:
             shown.setdefault(source, []).extend(surface.name for surface in group.surfaces)
     for source, names in shown.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-        yield f"{', '.join(names[:3])}{more}: material '{source.name}' is {', '.join(source.opaque_now)}; with " \
-              "--materials lambert it is opaque"
+        yield f"{', '.join(names[:3])}{more}: material '{source.name}' {source.lost()}"

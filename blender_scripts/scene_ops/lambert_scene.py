@@ -13,6 +13,7 @@ def rebuild(shown):
     """Link a plain object for every surface and light, and nothing else but camera, volumes and hair."""
     scene, everything = bpy.context.scene, shown.surfaces + shown.lights
     bpy.context.view_layer.material_override = None  # already in the surfaces' materials
+    scene.background_set = None  # its surfaces and lights are among the others
     for ob in {item.original for item in everything}:
         if not ob.library:
             ob.name = "rnmbake original"
@@ -45,6 +46,8 @@ def _make_object(item, pivot):
         setattr(ob, name, value)
     for name, value in item.cycles_flags.items():
         setattr(ob.cycles, name, value)
+    for name, value in item.values.items():
+        ob[name] = value
     return ob
 
 
