@@ -113,7 +113,7 @@ def read_color(shader):
     texture = socket.links[0].from_node
     if texture.type == "COMBXYZ":  # below 0
         return [component.default_value for component in texture.inputs], None, None
-    if texture.type == "VECT_MATH":  # the cut at 1
+    if texture.type == "VECT_MATH":  # the cut at 1, or what the strength makes up for
         texture = texture.inputs[0].links[0].from_node
     place = texture.inputs["Vector"].links[0].from_node
     return UNLIT, texture.image, ("layer", place.uv_map) if place.type == "UVMAP" else ("attribute", UV_ATTRIBUTE)

@@ -14,7 +14,8 @@ from core.task import Refusal
 from scene_ops import lambert_uv
 from scene_ops.lambert_bench import bench, new_image
 from scene_ops.lambert_materials import BLACK, Source, picture, stand_in
-from scene_ops.lambert_pixels import brightness, cut, keep_if_bright, left_beside, read_pixels
+from scene_ops.lambert_pixels import (brightness, cut, farthest_from_black, keep_if_bright, left_beside,
+                                      read_pixels)
 
 CELL = 4  # texels across the square of a uniform material
 MARGIN = 8  # texels around charts: they also colour triangles that hold no texel's centre
@@ -214,10 +215,11 @@ def settle_by_bake(stand, group, side):
     if group.uv:
         lambert_uv.keep_uv(group.mesh, group.uv)
     color = picture(albedo, group.layer, brightest > 1.0001)
-    glow = picture(emission, group.layer) if emission else BLACK
+    peak = farthest_from_black(read_pixels(emission)) if emission else 1.0
+    glow = picture(emission, group.layer, peak=peak) if emission else BLACK
     through = picture(transmittance, group.layer) if transmittance else BLACK
     assign(group, {source: stand_in(source, color, glow if source.emissive else BLACK,
-                                    through if source.see_through else BLACK)
+                                    through if source.see_through else BLACK, peak)
                    for source in set(group.varying)})
     return [above_one(name)] if brightest > 1.0001 else []
 

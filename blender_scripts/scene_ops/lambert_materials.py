@@ -112,10 +112,11 @@ def answer_what_a_bake_cannot(copy, on_copies):
         instance_values.answer_random(copy.node_tree)
 
 
-def make_lambert(material, color, emission, transmittance=BLACK):
+def make_lambert(material, color, emission, transmittance=BLACK, peak=1.0):
     """Diffuse BSDF of roughness 0, emission and what goes straight through, added up.
 
-    Each of the three is a colour, or an output socket's maker.
+    Each of the three is a colour, or an output socket's maker. An emission's maker gives at most 1 of the `peak`: Cycles
+    chooses among lights by what a number says of them, and does not look into pictures.
     """
     tree = empty_tree(material)
     nodes, links = tree.nodes, tree.links
@@ -127,6 +128,8 @@ def make_lambert(material, color, emission, transmittance=BLACK):
             continue
         other, both = nodes.new("ShaderNode" + kind), nodes.new("ShaderNodeAddShader")
         _feed(nodes, links, other.inputs["Color"], value)
+        if kind == "Emission" and callable(value):
+            other.inputs["Strength"].default_value = peak
         links.new(shader.outputs[0], both.inputs[0])
         links.new(other.outputs[0], both.inputs[1])
         shader = both
@@ -145,8 +148,8 @@ def _feed(nodes, links, socket, value):
         socket.default_value = (*value, 1)
 
 
-def picture(image, uv_layer, at_most_one=False):
-    """Makes the output of an image texture, read through a UV layer or, where that is None, UV_ATTRIBUTE."""
+def picture(image, uv_layer, at_most_one=False, peak=1.0):
+    """Makes the output of an image texture, as shares of `peak`, read through a UV layer or, where that is None, UV_ATTRIBUTE."""
     def make(nodes, links):
         texture = nodes.new("ShaderNodeTexImage")
         texture.image, texture.interpolation, texture.extension = image, "Linear", "EXTEND"
@@ -158,20 +161,20 @@ def picture(image, uv_layer, at_most_one=False):
             place = nodes.new("ShaderNodeAttribute")
             place.attribute_name = UV_ATTRIBUTE
             links.new(place.outputs["Vector"], texture.inputs["Vector"])
-        if not at_most_one:
+        if not at_most_one and peak == 1:
             return texture.outputs["Color"]
-        least = nodes.new("ShaderNodeVectorMath")
-        least.operation = "MINIMUM"
-        links.new(texture.outputs["Color"], least.inputs[0])
-        least.inputs[1].default_value = (1, 1, 1)
-        return least.outputs["Vector"]
+        change = nodes.new("ShaderNodeVectorMath")
+        change.operation = "MINIMUM" if at_most_one else "MULTIPLY"
+        links.new(texture.outputs["Color"], change.inputs[0])
+        change.inputs[1].default_value = [1 / peak] * 3
+        return change.outputs["Vector"]
     return make
 
 
-def stand_in(source, color, emission, transmittance=BLACK):
+def stand_in(source, color, emission, transmittance=BLACK, peak=1.0):
     """The lambert material for a source, which keeps its name for those who ask (--split material)."""
     material = bpy.data.materials.new(source.name or "rnmbake empty slot")
     material[LABEL_PROPERTY] = source.name
     source.notes.write_to(material)
-    make_lambert(material, color, emission, transmittance)
+    make_lambert(material, color, emission, transmittance, peak)
     return material
