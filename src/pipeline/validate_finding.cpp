@@ -28,11 +28,13 @@ Statistic mean(const std::vector<Statistic>& all) {
 }
 
 /// Beyond what matters and beyond what chance does to one of some hundred numbers: four standard errors.
-bool is_off(const PictureMetrics& metrics) {
-  if (metrics.too_noisy) return false;
-  const Statistic& bias = metrics.relative_bias;
+bool is_off(const Statistic& bias) {
   const double four_errors = (bias.high95 - bias.low95) / 2 / 1.96 * 4;
   return std::abs(bias.value) > as_good_as_none && std::abs(bias.value) > four_errors;
+}
+
+bool is_off(const PictureMetrics& metrics) {
+  return !metrics.too_noisy && is_off(metrics.relative_bias);
 }
 
 /// The bases that a recipe is judged by: a flat bake needs none.
