@@ -8,6 +8,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace rnmbake {
 namespace {
@@ -56,7 +57,6 @@ class Follow : public testing::Test {
   }
   Baked reference(const std::string& scene) { return bench_.reference(session_.file(scene), flags); }
 
- private:
   static Words with(Words more) {
     more.insert(more.end(), flags.begin(), flags.end());
     return more;
@@ -74,11 +74,6 @@ void expect_cells(const Baked& baked) {
   expect(baked, "instance", Vec3(0.9F, 0.1F, 0.3F) * float(panel));
 }
 
-/// What differs from place to place within an object.
-double room_mean(const Baked& baked) {
-  return mean_of(baked.lightmap("room")).value[0];
-}
-
 TEST_F(Follow, CellsAreWhatTheyMustBe) {
   const Baked own = bake("cells.blend"), lambert = bake("cells.blend", {"--materials", "lambert"}),
               traced = reference("cells.blend");
@@ -86,7 +81,9 @@ TEST_F(Follow, CellsAreWhatTheyMustBe) {
     SCOPED_TRACE(one == &own ? "own materials" : one == &lambert ? "lambert" : "reference");
     expect_cells(*one);
     // All that a lamp of two bounces gives to the walls of a closed room: 1 + r + r^2.
-    EXPECT_NEAR(room_mean(*one), 1 + 0.8 + 0.64, 0.01);
+    const Mean room = mean_of(one->lightmap("room"));
+    EXPECT_LT(room.error[0], 0.05);  // one bounce more or less is 0.5 or more
+    EXPECT_NEAR(room.value[0], 1 + 0.8 + 0.64, 4 * room.error[0]);
     for (const char* object : {"random", "random object"}) {
       const Mean right = mean_of(own.lightmap(object)), mean = mean_of(one->lightmap(object));
       EXPECT_GT(right.value[0], 0.01) << object;
@@ -104,6 +101,59 @@ TEST_F(Follow, ViewLayersWithoutEnvironmentAndBackgroundSets) {
     expect(bake(scene, {"--materials", "lambert"}), "floor", Vec3(right));
     expect(reference(scene), "floor", Vec3(right));
   }
+}
+
+/// A row of the decomposition of an object, relative to the reference: within four standard errors of
+/// `right`.
+void expect_row(const nlohmann::json& report, const std::string& subject, const std::string& name,
+                double right) {
+  for (const auto& decomposition : report.at("decompositions")) {
+    for (const auto& row : decomposition.at("bases").at(0).at("rows")) {
+      if (decomposition.at("subject") != subject || row.at("name") != name) continue;
+      const auto& bias = row.at("relative_bias");
+      const double value = bias.at("value"), error = (bias.at("high95").get<double>() - value) / 1.96;
+      EXPECT_LT(error, 0.02) << name;
+      EXPECT_NEAR(value, right, 4 * error) << name;
+      return;
+    }
+  }
+  ADD_FAILURE() << "no row " << name << " of " << subject;
+}
+
+TEST_F(Follow, ValidateNamesTheBounceLimitAndWhatIsNotFollowed) {
+  const auto folder = session_.file("proof");
+  ProcessOptions options;
+  options.argv = {RNMBAKE_BINARY,
+                  "validate",
+                  session_.file("judged.blend").string(),
+                  "-o",
+                  folder.string(),
+                  "--resolution",
+                  "12",
+                  "--samples",
+                  "64",
+                  "--bounces",
+                  "8",
+                  "--bases",
+                  "flat",
+                  "--decompose",
+                  "room",
+                  "--view",
+                  "0",
+                  "--quiet"};
+  const ProcessResult result = run_process(options);
+  ASSERT_TRUE(result.succeeded()) << result.output;
+  const auto report = nlohmann::json::parse(read_text(folder / "report.json"));
+  EXPECT_EQ(report.at("not_followed"), nlohmann::json({"light 'lamp': node tree"}));
+  EXPECT_EQ(report.at("bounce_limit").at("bounces"), 8);
+  const std::string finding = report.at("finding");
+  EXPECT_NE(finding.find("not followed by the reference: light 'lamp': node tree"), std::string::npos)
+      << finding;
+  EXPECT_EQ(finding.find("have a bias"), std::string::npos) << finding;
+  EXPECT_NE(finding.find("bounce limit of 8"), std::string::npos) << finding;
+  // A furnace of albedo r has 1 - r^(n+1) of its light within n bounces.
+  expect_row(report, "room", "bounce limit", -std::pow(0.9, 9));
+  expect_row(report, "room", "residual", 0);
 }
 
 }  // namespace

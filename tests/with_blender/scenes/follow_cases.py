@@ -1,7 +1,7 @@
 """blender -b --factory-startup --python follow_cases.py -- FOLDER: scenes for tests/with_blender/follow_test.cpp.
 
 cells.blend: small scenes so far apart that none lights another, each with a floor under it and one thing that a tracer has to
-follow. nosky.blend, sets.blend: the same for what concerns a whole scene.
+follow. nosky.blend, sets.blend: the same for what concerns a whole scene. judged.blend: for validate.
 """
 import math
 import os
@@ -196,8 +196,27 @@ def sets():
     own.background_set = other
 
 
+def judged():
+    """A furnace of albedo 0.9, which any limit of bounces darkens, and a lamp with nodes, which no tracer follows."""
+    new_world()
+    white = material("white", Color=(0.9, 0.9, 0.9, 1))
+    tree = white.node_tree
+    shaders = [next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE"), tree.nodes.new("ShaderNodeEmission"),
+               tree.nodes.new("ShaderNodeAddShader")]
+    shaders[1].inputs["Strength"].default_value = 0.1
+    for place, shader in enumerate(shaders[:2]):
+        tree.links.new(shader.outputs[0], shaders[2].inputs[place])
+    tree.links.new(shaders[2].outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
+    room("room", white, (0, 0, 0))
+    square("floor", 0.5, material("black", Color=(0, 0, 0, 1)), (APART, 0, 0))
+    tree = new_tree(lamp("lamp", "POINT", (APART, 0, 1), POINT).data)
+    falloff, emission = tree.nodes.new("ShaderNodeLightFalloff"), tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(falloff.outputs["Linear"], emission.inputs["Strength"])
+    tree.links.new(emission.outputs[0], tree.nodes.new("ShaderNodeOutputLight").inputs["Surface"])
+
+
 def main(folder):
-    for build in (cells, nosky, sets):
+    for build in (cells, nosky, sets, judged):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.context.scene.render.engine = "CYCLES"
         build()
