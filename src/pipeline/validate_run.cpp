@@ -236,7 +236,7 @@ class ValidateRun {
   }
 
   /// About the receiver as a meter: what it was told to leave out is no error of its own.
-  [[nodiscard]] std::string finding_of(const Report& receiver) const {
+  [[nodiscard]] std::string judge(const Report& receiver) const {
     return receiver_finding(limit_matters_ ? against(limited(), Recipe::receiver, false) : receiver);
   }
 
@@ -257,7 +257,7 @@ class ValidateRun {
   [[nodiscard]] Validation compare(const SplitStudy& study) const {
     Validation result{against(truth(), Recipe::receiver, true), {}, complete_};
     Report& receiver = result.receiver;
-    receiver.finding = finding_of(receiver);
+    receiver.finding = judge(receiver);
     receiver.study = study;
     if (decomposes()) {
       receiver.decompositions = decompose(decompose_input());
