@@ -7,7 +7,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from core.task import run  # noqa: E402
 from scene_ops import displacement  # noqa: E402
 from scene_ops.load import imported_blend, open_to_measure, refuse_blocked_scripts  # noqa: E402
-from scene_ops.survey import survey_scene, write_survey  # noqa: E402
+from scene_ops.survey import survey_scene, volume_warnings, write_survey  # noqa: E402
 
 
 def main(task):
@@ -17,7 +17,7 @@ def main(task):
     task.progress("evaluate")
     survey = survey_scene(task)
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
-    survey["warnings"] = warnings + survey["warnings"]
+    survey["warnings"] = [*warnings, *survey["warnings"], *volume_warnings(survey)]
     result = {"survey": write_survey(task, survey)}
     if blend:
         result["blend"] = blend

@@ -1,6 +1,7 @@
 """What materials, lights and worlds are made of, and what in them a diffuse + emission tracer cannot follow."""
+from scene_ops import light_paths
 from scene_ops.describe_nodes import active_output, constant, is_zero, reachable_nodes, tree_source
-from scene_ops.see_through import casts_opaque_shadow, lets_light_through
+from scene_ops.see_through import casts_opaque_shadow, has_transparency, lets_light_through
 
 # Closures by node type. Diffuse, Principled and Emission are looked at more closely.
 CLOSURES = {
@@ -22,13 +23,21 @@ CLOSURES = {
     "BSDF_RAY_PORTAL": "ray portal",
     "EEVEE_SPECULAR": "Eevee only",
     # Not closures, but a surface that asks these looks different from every side.
-    "LIGHT_PATH": "light path",
     "FRESNEL": "view-dependent",
     "LAYER_WEIGHT": "view-dependent",
     "CAMERA": "view-dependent",
     "AMBIENT_OCCLUSION": "ambient occlusion node",
     "BEVEL": "bevel node",
     "SCRIPT": "script node",
+    "PARTICLE_INFO": "particle info",
+}
+
+ATTRIBUTES = {"VIEW_LAYER": "view layer attribute"}
+
+# Outputs of nodes that have others too, which are the same from every side and for every instance.
+OUTPUTS = {
+    "NEW_GEOMETRY": {"Backfacing": "backfacing", "Incoming": "view-dependent"},
+    "TEX_COORD": {"Camera": "view-dependent", "Window": "view-dependent", "Reflection": "view-dependent"},
 }
 
 # Principled sockets under their names in 3.x and 4.x. All of these are off at 0.
@@ -54,6 +63,8 @@ def describe_material(material):
         outside.add("volume")
     if output.inputs["Displacement"].is_linked:
         outside.add("displacement")
+    if light_paths.unsure(reachable_nodes(output.inputs["Surface"]), has_transparency(material)):
+        outside.add("light path")
     for node in reachable_nodes(output.inputs["Surface"]):
         outside.update(outside_of(node))
         info["emissive"] |= emits(node)
@@ -72,11 +83,14 @@ def outside_of(node):
     elif node.type == "BSDF_DIFFUSE":
         if not is_zero(node, "Roughness"):
             yield "rough diffuse"
-    elif node.type == "NEW_GEOMETRY":
-        if node.outputs["Backfacing"].is_linked:
-            yield "backfacing"  # looks different from behind
+    elif node.type in OUTPUTS:
+        yield from (what for name, what in OUTPUTS[node.type].items() if node.outputs[name].is_linked)
     elif node.type in CLOSURES:
         yield CLOSURES[node.type]
+    if getattr(node, "from_instancer", False):
+        yield "instancer coordinates"
+    if node.type == "ATTRIBUTE" and node.attribute_type in ATTRIBUTES:
+        yield ATTRIBUTES[node.attribute_type]
 
 
 def outside_of_principled(node):
@@ -109,6 +123,8 @@ def bends_normals(node):
 LIGHT_SIZES = ("angle", "shadow_soft_size", "spot_size", "spot_blend", "size", "size_y", "spread", "use_soft_falloff",
                "normalize")
 
+NO_LIMIT = 1024  # Cycles' default and highest number of bounces
+
 
 def describe_light(ob, matrix):
     """LightInfo of scene/survey.h, and the sizes that the light's type has.
@@ -118,6 +134,7 @@ def describe_light(ob, matrix):
     light = ob.data
     energy, color = float(light.energy), [float(value) for value in light.color]
     energy *= 2.0 ** getattr(light, "exposure", 0.0)
+    cycles = getattr(light, "cycles", None)
     if getattr(light, "use_temperature", False):
         color = [a * b for a, b in zip(color, light.temperature_color)]
     node = node_emission(light)
@@ -132,6 +149,7 @@ def describe_light(ob, matrix):
         "shape": getattr(light, "shape", ""),
         "sizes": {name: float(getattr(light, name)) for name in LIGHT_SIZES if hasattr(light, name)},
         "matrix": [value for row in matrix for value in row],
+        "max_bounces": getattr(cycles, "max_bounces", NO_LIMIT),
         "outside_model": sorted(set(outside_of_light(ob, light, matrix))),
     }
 
@@ -140,8 +158,6 @@ def outside_of_light(ob, light, matrix):
     if node_emission(light) is None:
         yield "node tree"
     cycles = getattr(light, "cycles", None)
-    if getattr(cycles, "is_portal", False):
-        yield "portal"
     if not getattr(light, "use_shadow", True) or not getattr(cycles, "cast_shadow", True):
         yield "no shadow"
     linking = getattr(ob.original, "light_linking", None)

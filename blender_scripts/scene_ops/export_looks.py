@@ -41,7 +41,7 @@ class Looks:
         return {
             "material": material.get(LABEL_PROPERTY, material.name),
             "albedo": [min(max(value, 0.0), 1.0) for value in albedo],
-            "emission": [max(value, 0.0) for value in emission],
+            "emission": emission,
             "transmittance": [min(max(value, 0.0), 1.0) for value in through],
             "albedo_picture": self._picture(albedo_image),
             "emission_picture": self._picture(emission_image),
@@ -111,7 +111,9 @@ def read_color(shader):
     if not socket.is_linked:
         return list(socket.default_value)[:3], None, None
     texture = socket.links[0].from_node
-    if texture.type == "VECT_MATH":  # the cut at 1
+    if texture.type == "COMBXYZ":  # below 0
+        return [component.default_value for component in texture.inputs], None, None
+    if texture.type == "VECT_MATH":  # the cut at 1, or what the strength makes up for
         texture = texture.inputs[0].links[0].from_node
     place = texture.inputs["Vector"].links[0].from_node
     return UNLIT, texture.image, ("layer", place.uv_map) if place.type == "UVMAP" else ("attribute", UV_ATTRIBUTE)
@@ -142,7 +144,7 @@ def write_pixels(file, image):
 
 
 def read_colors(image):
-    """RGB, no negative ones, top row first."""
+    """RGB, top row first."""
     width, height = image.size
     channels = image.channels
     pixels = array("f", bytes(4 * channels * width * height))
@@ -150,8 +152,6 @@ def read_colors(image):
     colors = array("f", bytes(12 * width * height))
     for channel in range(3):
         colors[channel::3] = pixels[min(channel, channels - 1)::channels]
-    if colors and min(colors) < 0:
-        colors = array("f", (max(value, 0.0) for value in colors))
     flipped = array("f")
     for row in reversed(range(height)):
         flipped.extend(colors[3 * width * row:3 * width * (row + 1)])

@@ -9,6 +9,11 @@ from scene_ops.export_notes import OUTSIDE, remembered_camera
 from scene_ops.survey import Surveyor
 
 
+def gives_no_light(ob):
+    """To diffuse surfaces. A portal is a hint where to look for the world, and no light."""
+    return not ob.visible_diffuse or getattr(getattr(ob.data, "cycles", None), "is_portal", False)
+
+
 class ExportSurveyor(Surveyor):
     def __init__(self, task):
         super().__init__(task)
@@ -19,7 +24,7 @@ class ExportSurveyor(Surveyor):
     def visit(self, depsgraph):
         for instance in depsgraph.object_instances:
             if instance.show_self and instance.object.type == "LIGHT":
-                self._lights_off.append(not instance.object.visible_diffuse)
+                self._lights_off.append(gives_no_light(instance.object))
         super().visit(depsgraph)
 
     def add_surface(self, instance, ob):
@@ -28,35 +33,34 @@ class ExportSurveyor(Surveyor):
         materials = [slot.material.original for slot in ob.material_slots]
         self.object_looks.append([self.looks.add(material, ob.data, entry["mesh"]) for material in materials])
         what = {word for material in materials for word in outside_of(material)}
+        what.update(word for flag, word in (("is_holdout", "holdout"), ("is_shadow_catcher", "shadow catcher"))
+                    if getattr(ob, flag, False))
+        untraced = {"light linking"} if entry["light_group"] else set()
         if not ob.visible_diffuse and not ob.visible_shadow:
             self.unlit.append(len(self.objects) - 1)
         elif not ob.visible_diffuse:
-            what.add("hidden from diffuse rays")
+            untraced.add("hidden from diffuse rays")
         elif not ob.visible_shadow:
-            what.add("casts no shadow")
-        what.update(word for flag, word in (("is_holdout", "holdout"), ("is_shadow_catcher", "shadow catcher"))
-                    if getattr(ob, flag, False))
-        if entry["light_group"]:
-            what.add("light linking")
-        self.tell(f"object '{entry['key']}'", what)
+            untraced.add("casts no shadow")
+        self.tell(f"object '{entry['key']}'", what, untraced)
 
-    def tell(self, owner, what):
-        if what:
-            self.outside.append({"owner": owner, "what": sorted(what)})
+    def tell(self, owner, what, untraced):
+        """OutsideModel of scene/exchange.h. `untraced`: what the lambert scene shows, too."""
+        if what or untraced:
+            self.outside.append({"owner": owner, "what": sorted({*what, *untraced}), "untraced": sorted(untraced)})
 
     def finish(self):
         """What must not happen while the survey renders; then the file is complete."""
         scene = bpy.context.scene
-        for light, off in zip(self.lights, self._lights_off):
-            what = set(light["outside_model"]) | ({"hidden from diffuse rays, left out"} if off else set())
-            self.tell(f"light '{light['name']}'", what)
         self.lights = [light for light, off in zip(self.lights, self._lights_off) if not off]
+        for light in self.lights:
+            self.tell(f"light '{light['name']}'", (), light["outside_model"])
         pictures = self.looks.write_pictures()
         world, picture, what = export_world.describe(self.task, scene, self.meshes)
         if picture:
             world["picture"] = len(pictures)
             pictures.append(picture)
-        self.tell("world", what)
+        self.tell("world", (), what)
         self.outside += json.loads(scene.get(OUTSIDE, "[]"))
         camera, note = remembered_camera(scene)
         self.warnings += [note] if note else []

@@ -8,7 +8,8 @@ import os
 
 import bpy
 
-from scene_ops.describe import describe_world
+from scene_ops import light_paths
+from scene_ops.describe import NO_LIMIT, describe_world
 from scene_ops.describe_nodes import reachable_nodes, tree_source
 from scene_ops.export_looks import read_colors
 
@@ -21,42 +22,53 @@ SAMPLES_AROUND, MOST_SAMPLES = 4096, 1 << 26  # for a texel; for all of them
 RIM = 2  # texels
 BLACK = [0.0, 0.0, 0.0]
 
-# What a diffuse bounce gets from a Light Path node; everything else that it asks is 0.
-BOUNCE = {"Is Diffuse Ray": 1.0, "Is Reflection Ray": 1.0, "Ray Depth": 1.0, "Diffuse Depth": 1.0}
-
 
 def describe(task, scene, file):
     """(World of scene/exchange.h, entry of its picture or None, what cannot be carried)."""
-    world = scene.world
+    world = world_of(bpy.context.view_layer)
     known = describe_world(world)
-    if known["kind"] == "none":
-        return {"radiance": BLACK, "picture": -1}, None, []
-    if not getattr(getattr(world, "cycles_visibility", None), "diffuse", True):
-        return {"radiance": BLACK, "picture": -1}, None, ["seen by cameras only"]
-    outside = sorted(outside_of(world))
+    outside = sorted(outside_of(world, known["kind"])) if world else []
+    if known["kind"] == "none" or not lights_surfaces(world):
+        return {"radiance": BLACK, "picture": -1}, None, outside
     if known["kind"] == "constant":
-        radiance = [max(0.0, known["strength"] * value) for value in known["color"]]
+        radiance = [known["strength"] * value for value in known["color"]]
         return {"radiance": radiance, "picture": -1}, None, outside
     task.progress("world", world.name)
-    entry = render(task, scene, file)
+    entry = render(task, scene, world, file)
     return {"radiance": BLACK, "picture": 0}, entry, outside
 
 
-def outside_of(world):
+def world_of(view_layer):
+    """What Cycles renders; None for a view layer without Environment."""
+    if not view_layer.use_sky:
+        return None
+    return getattr(view_layer, "world_override", None) or bpy.context.scene.world
+
+
+def lights_surfaces(world):
+    return getattr(getattr(world, "cycles_visibility", None), "diffuse", True)
+
+
+def outside_of(world, kind):
     if not world.use_nodes or world.node_tree is None:
         return
     outputs = [node for node in world.node_tree.nodes if node.type == "OUTPUT_WORLD" and node.is_active_output]
     if outputs and outputs[0].inputs["Volume"].is_linked:
         yield "volume"
-    if outputs and any(node.type == "LIGHT_PATH" for node in reachable_nodes(outputs[0].inputs["Surface"])):
+    if not lights_surfaces(world):
+        return
+    if outputs and light_paths.unsure(reachable_nodes(outputs[0].inputs["Surface"]), False):
         yield "light path"
+    # Beyond them Cycles goes on to meet the world by chance, with the weight that looking for it leaves.
+    if kind != "constant" and world.cycles.sampling_method != "NONE" and world.cycles.max_bounces < NO_LIMIT:
+        yield "max bounces"
 
 
-def render(task, like, file):
+def render(task, like, world, file):
     """The entry of the panorama, whose pixels go into the file."""
     scene = bpy.data.scenes.new("rnmbake world")
     scene.frame_current = like.frame_current
-    scene.world = as_a_bounce_sees_it(like.world)
+    scene.world = as_a_bounce_sees_it(world)
     scene.camera = bpy.data.objects.new("rnmbake panorama", panorama_camera())
     # The middle of the picture is +x and its top +z, as in an environment texture.
     scene.camera.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
@@ -87,7 +99,7 @@ def bright_box(colors):
     """(left, top, right, bottom) around all texels that hold much of the light; None where it is spread evenly."""
     rows = [colors[3 * WIDTH * row:3 * WIDTH * (row + 1)] for row in range(HEIGHT)]
     shares = [math.sin(math.pi * (row + 0.5) / HEIGHT) for row in range(HEIGHT)]  # of solid angle
-    total = math.fsum(share * math.fsum(row) for row, share in zip(rows, shares))
+    total = math.fsum(share * math.fsum(map(abs, row)) for row, share in zip(rows, shares))
     found = [(3 * total * BRIGHT / share, number) for number, share in enumerate(shares)]
     found = [(least, number) for least, number in found if 0 < least < max(rows[number])]
     if not found:
@@ -143,7 +155,7 @@ def as_a_bounce_sees_it(world):
             for link in list(node.inputs["Volume"].links):
                 copy.node_tree.links.remove(link)
     if any(node.type == "LIGHT_PATH" for node in reachable_nodes(tree_surface(copy.node_tree))):
-        answer_light_paths(copy.node_tree)
+        light_paths.answer(copy.node_tree)
     return copy
 
 
@@ -151,20 +163,3 @@ def tree_surface(tree):
     source = tree_source(tree, "OUTPUT_WORLD")
     return next(node for node in tree.nodes if node.type == "OUTPUT_WORLD" and any(
         link.from_node == source for link in node.inputs["Surface"].links)).inputs["Surface"]
-
-
-def answer_light_paths(tree):
-    for node in list(tree.nodes):
-        if node.type == "GROUP" and node.node_tree:
-            node.node_tree = node.node_tree.copy()
-            answer_light_paths(node.node_tree)
-        elif node.type == "LIGHT_PATH":
-            answer(tree, node)
-
-
-def answer(tree, node):
-    for output in node.outputs:
-        value = tree.nodes.new("ShaderNodeValue")
-        value.outputs[0].default_value = BOUNCE.get(output.name, 0.0)
-        for link in list(output.links):
-            tree.links.new(value.outputs[0], link.to_socket)

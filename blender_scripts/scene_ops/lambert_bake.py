@@ -14,7 +14,8 @@ from core.task import Refusal
 from scene_ops import lambert_uv
 from scene_ops.lambert_bench import bench, new_image
 from scene_ops.lambert_materials import BLACK, Source, picture, stand_in
-from scene_ops.lambert_pixels import brightness, cut, keep_if_bright, left_beside, read_pixels
+from scene_ops.lambert_pixels import (brightness, cut, farthest_from_black, keep_if_bright, left_beside,
+                                      read_pixels)
 
 CELL = 4  # texels across the square of a uniform material
 MARGIN = 8  # texels around charts: they also colour triangles that hold no texel's centre
@@ -59,7 +60,7 @@ def replace_materials(task, surfaces):
         for group in groups:
             if not group.varying:
                 assign(group, {})
-    warnings += opaque_warnings(groups)
+    warnings += lost_warnings(groups)
     for source in sources.values():
         source.remove_copies()
     return warnings
@@ -69,13 +70,14 @@ def make_groups(surfaces, sources):
     groups = {}
     for surface in surfaces:
         mesh, materials = surface.data, surface.materials or [None]
-        for material in materials:
-            if material not in sources:
-                sources[material] = Source(material)
+        kinds = [(material, surface.is_copy) for material in materials]
+        for kind in kinds:
+            if kind not in sources:
+                sources[kind] = Source(*kind)
         while len(mesh.materials) < len(materials):
             mesh.materials.append(None)
-        group = Group(surface, [sources[material] for material in materials])
-        look = (mesh.name, tuple(materials), None if group.mesh_bound else surface.name)
+        group = Group(surface, [sources[kind] for kind in kinds])
+        look = (mesh.name, tuple(kinds), None if group.mesh_bound else surface.name)
         groups.setdefault(look, group).surfaces.append(surface)
     return list(groups.values())
 
@@ -213,10 +215,11 @@ def settle_by_bake(stand, group, side):
     if group.uv:
         lambert_uv.keep_uv(group.mesh, group.uv)
     color = picture(albedo, group.layer, brightest > 1.0001)
-    glow = picture(emission, group.layer) if emission else BLACK
+    peak = farthest_from_black(read_pixels(emission)) if emission else 1.0
+    glow = picture(emission, group.layer, peak=peak) if emission else BLACK
     through = picture(transmittance, group.layer) if transmittance else BLACK
     assign(group, {source: stand_in(source, color, glow if source.emissive else BLACK,
-                                    through if source.see_through else BLACK)
+                                    through if source.see_through else BLACK, peak)
                    for source in set(group.varying)})
     return [above_one(name)] if brightest > 1.0001 else []
 
@@ -271,14 +274,13 @@ def above_one(name):
            "reflects more than it gets"
 
 
-def opaque_warnings(groups):
-    """One line for each material that lets light through and no longer does."""
+def lost_warnings(groups):
+    """One line for each material that lets light through and no longer does, or had a volume."""
     shown = {}
     for group in groups:
         used = used_slots(group.mesh, len(group.sources))
-        for source in {source for slot, source in enumerate(group.sources) if slot in used and source.opaque_now}:
+        for source in {source for slot, source in enumerate(group.sources) if slot in used and source.lost()}:
             shown.setdefault(source, []).extend(surface.name for surface in group.surfaces)
     for source, names in shown.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-        yield f"{', '.join(names[:3])}{more}: material '{source.name}' is {', '.join(source.opaque_now)}; with " \
-              "--materials lambert it is opaque"
+        yield f"{', '.join(names[:3])}{more}: material '{source.name}' {source.lost()}"

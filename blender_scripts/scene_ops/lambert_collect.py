@@ -1,6 +1,7 @@
 """All that a render of the scene shows, taken out of the dependency graph: meshes, materials, places, lights."""
 import bpy
 
+from scene_ops.instance_values import attributes_by_host, values_of
 from scene_ops.keys import Keys, instancer_of, shown_surfaces
 from scene_ops.survey import with_render_depsgraph
 
@@ -26,11 +27,21 @@ class Shown:
         self.matrix = instance.matrix_world.copy()
         self.visible = ray_visibility(ob, owner)
         self.flags = {flag: plain(getattr(ob, flag)) for flag in FLAGS if hasattr(ob, flag)}
+        self._ask_collections()
         self.cycles_flags = {flag: getattr(ob.cycles, flag) for flag in CYCLES_FLAGS if hasattr(ob.cycles, flag)}
         self.linking = light_linking(self.owner) or light_linking(self.original)
+        self.values = {}  # scene_ops/instance_values.py
         self.data = None  # a mesh or a light
         self.materials = []
         self.object = None  # what stands for it in the new scene
+
+    def _ask_collections(self):
+        """The view layer's own flags on collections, which the new scene does not have."""
+        layer = bpy.context.view_layer
+        if self.owner.indirect_only_get(view_layer=layer):
+            self.visible["visible_camera"] = False
+        if self.owner.holdout_get(view_layer=layer):
+            self.flags["is_holdout"] = True
 
 
 class Scene:
@@ -59,12 +70,12 @@ def light_linking(ob):
 
 
 def collect():
-    scene = Scene()
-    with_render_depsgraph(lambda depsgraph: _visit(depsgraph, scene))
+    scene, by_host = Scene(), attributes_by_host()
+    with_render_depsgraph(lambda depsgraph: _visit(depsgraph, scene, by_host))
     return scene
 
 
-def _visit(depsgraph, scene):
+def _visit(depsgraph, scene, by_host):
     names, meshes = Keys(), {}
     for instance in shown_surfaces(depsgraph):
         surface = Shown(instance, names.new(instance))
@@ -73,6 +84,7 @@ def _visit(depsgraph, scene):
         if shared not in meshes:
             meshes[shared] = copy_mesh(evaluated)
         surface.data = meshes[shared]
+        surface.values = values_of(instance, by_host)
         surface.materials = [_original(slot.material) for slot in evaluated.material_slots]
         scene.surfaces.append(surface)
     for instance in depsgraph.object_instances:
@@ -99,15 +111,24 @@ def _add_other(instance, scene):
         light = Shown(instance, ob.original.name)
         light.data = ob.original.data
         scene.lights.append(light)
-    elif ob.type in KEPT_TYPES and not instance.is_instance:
-        scene.kept.append(ob.original)
-        scene.outside.append({"owner": f"object '{ob.original.name}'", "what": [ob.type.lower()]})
-        scene.warnings.append(f"{ob.original.name}: {ob.type.lower()} keeps its material; only surfaces become "
-                              "lambert")
+    elif ob.type in KEPT_TYPES:
+        _add_kept(instance, scene)
     if not instance.is_instance and any(system.settings.type == "HAIR" and system.settings.render_type == "PATH"
                                         for system in ob.particle_systems):
         scene.outside.append({"owner": f"object '{ob.original.name}'", "what": ["hair"]})
         scene.warnings.append(f"{ob.original.name}: its hair is left out with --materials lambert")
+
+
+def _add_kept(instance, scene):
+    ob, what = instance.object.original, instance.object.type.lower()
+    owner = f"object '{ob.name}'"
+    if not instance.is_instance:
+        scene.kept.append(ob)
+        scene.outside.append({"owner": owner, "what": [what], "untraced": [what]})
+        scene.warnings.append(f"{ob.name}: {what} keeps its material; only surfaces become lambert")
+    elif not any(other["owner"] == owner for other in scene.outside):
+        scene.outside.append({"owner": owner, "what": [what]})
+        scene.warnings.append(f"{ob.name}: instances of {what} are left out with --materials lambert")
 
 
 def _original(material):

@@ -1,11 +1,12 @@
 """Which materials look the same everywhere, which ones emit, and the plain ones that take their place."""
 import bpy
 
+from scene_ops import instance_values, light_paths
 from scene_ops.describe import describe_material
 from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
-from scene_ops.plain_material import NO_MATERIAL, empty_tree, make_diffuse
-from scene_ops.see_through import glow_where_transparent, lets_light_through, surface_nodes
+from scene_ops.plain_material import NO_MATERIAL, empty_tree, make_clear, make_diffuse
+from scene_ops.see_through import glow_where_transparent, is_volume_alone, lets_light_through, surface_nodes
 
 # Nodes whose result is one value for a whole surface that is looked at head-on, as a bake does.
 UNIFORM = {
@@ -25,9 +26,13 @@ UV_ATTRIBUTE = "rnmbake albedo"
 
 
 class Source:
-    """A material of the scene, or None for an empty slot; what it becomes where it is uniform."""
+    """A material of the scene, or None for an empty slot; what it becomes where it is uniform.
 
-    def __init__(self, material):
+    `on_copies`: on instances, which are answered otherwise than their stand-ins would be.
+    """
+
+    def __init__(self, material, on_copies):
+        self._on_copies = on_copies
         self.material = material
         nodes = surface_nodes(material)
         self.uniform = all(is_uniform(node) for node in nodes)
@@ -37,9 +42,15 @@ class Source:
         self.see_through = lets_light_through(material)
         self.opaque_now = [what for what in about["outside_model"] if what in OPAQUE_NOW]
         self.notes = MaterialNotes(material)
-        self.bakeable, self._texture = make_bakeable(material)
+        self.bakeable, self._texture = make_bakeable(material, on_copies)
         self._window = self._window_texture = None
         self.plain = None
+
+    def lost(self):
+        """What is no longer so, for a warning; "" where nothing is."""
+        if self.opaque_now:
+            return f"is {', '.join(self.opaque_now)}; with --materials lambert it is opaque"
+        return "has a volume, which --materials lambert leaves out" if "volume" in self.notes.outside else ""
 
     @property
     def name(self):
@@ -49,7 +60,7 @@ class Source:
     def window(self):
         """A copy that emits what the material lets through."""
         if self._window is None:
-            self._window, self._window_texture = make_bakeable(self.material)
+            self._window, self._window_texture = make_bakeable(self.material, self._on_copies)
             glow_where_transparent(self._window.node_tree)
         return self._window
 
@@ -75,11 +86,15 @@ def is_mesh_bound(node):
     return node.type in MESH_BOUND
 
 
-def make_bakeable(material):
+def make_bakeable(material, on_copies):
     """A copy that Cycles shades alike, and the image node in it that tells a bake where to write."""
     copy = material.copy() if material else bpy.data.materials.new("rnmbake empty slot")
     if material is None or not material.use_nodes or material.node_tree is None:
         make_diffuse(copy, material.diffuse_color[:3] if material else NO_MATERIAL)  # what Cycles shows
+    elif is_volume_alone(material):
+        make_clear(copy)
+    else:
+        answer_what_a_bake_cannot(copy, on_copies)
     nodes = copy.node_tree.nodes
     texture = nodes.new("ShaderNodeTexImage")
     for node in nodes:
@@ -88,10 +103,20 @@ def make_bakeable(material):
     return copy, texture
 
 
-def make_lambert(material, color, emission, transmittance=BLACK):
+def answer_what_a_bake_cannot(copy, on_copies):
+    """It would be answered as a camera is, on an object that is no instance."""
+    nodes = surface_nodes(copy)
+    if any(node.type == "LIGHT_PATH" for node in nodes):
+        light_paths.answer(copy.node_tree)
+    if on_copies and any(node.type == "OBJECT_INFO" for node in nodes):
+        instance_values.answer_random(copy.node_tree)
+
+
+def make_lambert(material, color, emission, transmittance=BLACK, peak=1.0):
     """Diffuse BSDF of roughness 0, emission and what goes straight through, added up.
 
-    Each of the three is a colour, or an output socket's maker.
+    Each of the three is a colour, or an output socket's maker. An emission's maker gives at most 1 of the `peak`: Cycles
+    chooses among lights by what a number says of them, and does not look into pictures.
     """
     tree = empty_tree(material)
     nodes, links = tree.nodes, tree.links
@@ -103,6 +128,8 @@ def make_lambert(material, color, emission, transmittance=BLACK):
             continue
         other, both = nodes.new("ShaderNode" + kind), nodes.new("ShaderNodeAddShader")
         _feed(nodes, links, other.inputs["Color"], value)
+        if kind == "Emission" and callable(value):
+            other.inputs["Strength"].default_value = peak
         links.new(shader.outputs[0], both.inputs[0])
         links.new(other.outputs[0], both.inputs[1])
         shader = both
@@ -112,12 +139,17 @@ def make_lambert(material, color, emission, transmittance=BLACK):
 def _feed(nodes, links, socket, value):
     if callable(value):
         links.new(value(nodes, links), socket)
+    elif min(value) < 0:  # no colour can be; a vector that is taken for one can
+        vector = nodes.new("ShaderNodeCombineXYZ")
+        for component, number in zip(vector.inputs, value):
+            component.default_value = number
+        links.new(vector.outputs[0], socket)
     else:
         socket.default_value = (*value, 1)
 
 
-def picture(image, uv_layer, at_most_one=False):
-    """Makes the output of an image texture, read through a UV layer or, where that is None, UV_ATTRIBUTE."""
+def picture(image, uv_layer, at_most_one=False, peak=1.0):
+    """Makes the output of an image texture, as shares of `peak`, read through a UV layer or, where that is None, UV_ATTRIBUTE."""
     def make(nodes, links):
         texture = nodes.new("ShaderNodeTexImage")
         texture.image, texture.interpolation, texture.extension = image, "Linear", "EXTEND"
@@ -129,20 +161,20 @@ def picture(image, uv_layer, at_most_one=False):
             place = nodes.new("ShaderNodeAttribute")
             place.attribute_name = UV_ATTRIBUTE
             links.new(place.outputs["Vector"], texture.inputs["Vector"])
-        if not at_most_one:
+        if not at_most_one and peak == 1:
             return texture.outputs["Color"]
-        least = nodes.new("ShaderNodeVectorMath")
-        least.operation = "MINIMUM"
-        links.new(texture.outputs["Color"], least.inputs[0])
-        least.inputs[1].default_value = (1, 1, 1)
-        return least.outputs["Vector"]
+        change = nodes.new("ShaderNodeVectorMath")
+        change.operation = "MINIMUM" if at_most_one else "MULTIPLY"
+        links.new(texture.outputs["Color"], change.inputs[0])
+        change.inputs[1].default_value = [1 / peak] * 3
+        return change.outputs["Vector"]
     return make
 
 
-def stand_in(source, color, emission, transmittance=BLACK):
+def stand_in(source, color, emission, transmittance=BLACK, peak=1.0):
     """The lambert material for a source, which keeps its name for those who ask (--split material)."""
     material = bpy.data.materials.new(source.name or "rnmbake empty slot")
     material[LABEL_PROPERTY] = source.name
     source.notes.write_to(material)
-    make_lambert(material, color, emission, transmittance)
+    make_lambert(material, color, emission, transmittance, peak)
     return material

@@ -15,9 +15,13 @@ def brightness(pixels):
     return max(max(pixels[channel::4]) for channel in range(3))
 
 
+def farthest_from_black(pixels):
+    return max(max(max(pixels[channel::4]), -min(pixels[channel::4])) for channel in range(3))
+
+
 def keep_if_bright(image):
-    """The image; None, and it is gone, where it is black everywhere."""
-    if image and brightness(read_pixels(image)) == 0:
+    """The image; None, and it is gone, where it is black everywhere. Light may be negative."""
+    if image and farthest_from_black(read_pixels(image)) == 0:
         bpy.data.images.remove(image)
         return None
     return image

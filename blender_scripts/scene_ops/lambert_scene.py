@@ -11,6 +11,7 @@ CONTAINERS = (bpy.types.Collection, bpy.types.Scene, bpy.types.Screen, bpy.types
 def rebuild(shown):
     """Link a plain object for every surface and light, and nothing else but camera, volumes and hair."""
     scene, everything = bpy.context.scene, shown.surfaces + shown.lights
+    scene.background_set = None  # its surfaces and lights are among the others
     for ob in {item.original for item in everything}:
         if not ob.library:
             ob.name = "rnmbake original"
@@ -43,6 +44,8 @@ def _make_object(item, pivot):
         setattr(ob, name, value)
     for name, value in item.cycles_flags.items():
         setattr(ob.cycles, name, value)
+    for name, value in item.values.items():
+        ob[name] = value
     return ob
 
 

@@ -19,6 +19,14 @@ def make_diffuse(material, color):
     tree.links.new(shader.outputs["BSDF"], output.inputs["Surface"])
 
 
+def make_clear(material):
+    """Lets all light through, as if there were no surface."""
+    tree = empty_tree(material)
+    shader, output = tree.nodes.new("ShaderNodeBsdfTransparent"), tree.nodes.new("ShaderNodeOutputMaterial")
+    shader.inputs["Color"].default_value = (1, 1, 1, 1)
+    tree.links.new(shader.outputs["BSDF"], output.inputs["Surface"])
+
+
 def empty_tree(owner):
     """Of a material or world. Blender 5 makes a tree by itself and warns about use_nodes."""
     if not owner.use_nodes:

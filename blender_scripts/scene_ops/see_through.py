@@ -1,15 +1,25 @@
-"""Materials that let light straight through: Transparent BSDFs and Principled BSDFs whose alpha is below 1.
+"""Materials that let light straight through: Transparent BSDFs and Principled BSDFs whose alpha is below 1, and what
+has a volume but no surface.
 
 How much goes through is asked of Cycles itself: a copy of the material in which every such closure glows in its own
 transparency, and nothing else does, is baked as emission. Mixes, groups and textures stay as they are.
 """
+from scene_ops import light_paths
 from scene_ops.describe_nodes import active_output, constant, is_zero, reachable_nodes
 
 
 def lets_light_through(material):
-    """A tree that asks what kind of ray meets it is opaque here: no single number tells what it lets through."""
+    """Where what it lets through depends on the kind of ray it is opaque here: no single number tells."""
+    if is_volume_alone(material):
+        return True
     nodes = surface_nodes(material)
-    return any(is_transparent(node) for node in nodes) and all(node.type != "LIGHT_PATH" for node in nodes)
+    return any(is_transparent(node) for node in nodes) and not light_paths.unsure(nodes, True)
+
+
+def is_volume_alone(material):
+    """Cycles lets rays through its surface as if there were none. Without a volume it would be black."""
+    output = active_output(material) if material else None
+    return output is not None and not surface_nodes(material) and any(reachable_nodes(output.inputs["Volume"]))
 
 
 def has_transparency(material):

@@ -144,6 +144,15 @@ def survey_scene(task, surveyor=None):
     }
 
 
+def volume_warnings(survey):
+    """One line for each material with a volume: Cycles' bakes begin outside of every object."""
+    for name, about in survey["materials"].items():
+        if "volume" in about["outside_model"]:
+            owner = next(entry["key"] for entry in survey["objects"] if name in entry["slots"])
+            yield f"{owner}: material '{name}' has a volume; what lies inside is baked as if it lay outside, its first light " \
+                  "undimmed; a medium around everything is better given to the world"
+
+
 def write_survey(task, survey):
     with open(task.path("survey.json"), "w", encoding="utf-8") as stream:
         json.dump(survey, stream, ensure_ascii=True)

@@ -97,7 +97,8 @@ json as_json(const ExportedScene& exported, const fs::path& file) {
       {"camera", scene.camera ? json(scene.camera->name) : json()},
       {"outside_model", json::array()}};
   for (const OutsideModel& outside : scene.outside)
-    result["outside_model"].push_back({{"owner", outside.owner}, {"what", outside.what}});
+    result["outside_model"].push_back(
+        {{"owner", outside.owner}, {"what", outside.what}, {"untraced", outside.untraced}});
   return result;
 }
 

@@ -47,7 +47,8 @@ void add_to_object(const ReferenceRecord& reference, const ManifestInput& input,
                    json& entry) {
   const std::string& key = input.survey.objects[input.list.targets[index].object].key;
   for (const OutsideModel& outside : reference.outside) {
-    if (outside.owner == "object '" + key + "'") entry["outside_model"] = outside.what;
+    if (outside.owner != "object '" + key + "'") continue;
+    for (const std::string& what : outside.what) entry["outside_model"].push_back(what);
   }
   if (entry["status"] != "baked") return;
   entry["paths"] = reference.traced[index].paths;
@@ -113,7 +114,8 @@ void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings
   manifest["error"] = reference.error;
   manifest["outside_model"] = json::array();
   for (const OutsideModel& outside : reference.outside)
-    manifest["outside_model"].push_back({{"owner", outside.owner}, {"what", outside.what}});
+    manifest["outside_model"].push_back(
+        {{"owner", outside.owner}, {"what", outside.what}, {"untraced", outside.untraced}});
   std::int64_t rays = 0;
   for (const auto& traced : reference.traced) rays += traced.rays;
   manifest["timings"] = {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};

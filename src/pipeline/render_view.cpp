@@ -28,6 +28,7 @@ class Shader {
         surfaces_(scene,
                   lightmaps == nullptr ? std::map<std::size_t, std::string>{} : lightmaps->tangent_layers()) {
     path_.bounces = bounces < 0 ? -1 : bounces + 1;
+    path_.before = 0;
     if (lighting.kind != Lighting::Kind::decoded) return;
     if (lightmaps == nullptr) fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
     decoders_ = lightmaps->decoders(lighting.variant);

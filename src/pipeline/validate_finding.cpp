@@ -28,11 +28,13 @@ Statistic mean(const std::vector<Statistic>& all) {
 }
 
 /// Beyond what matters and beyond what chance does to one of some hundred numbers: four standard errors.
-bool is_off(const PictureMetrics& metrics) {
-  if (metrics.too_noisy) return false;
-  const Statistic& bias = metrics.relative_bias;
+bool is_off(const Statistic& bias) {
   const double four_errors = (bias.high95 - bias.low95) / 2 / 1.96 * 4;
   return std::abs(bias.value) > as_good_as_none && std::abs(bias.value) > four_errors;
+}
+
+bool is_off(const PictureMetrics& metrics) {
+  return !metrics.too_noisy && is_off(metrics.relative_bias);
 }
 
 /// The bases that a recipe is judged by: a flat bake needs none.
@@ -64,7 +66,26 @@ Causes causes_of(const std::vector<const BasisDecomposition*>& bases) {
   return causes;
 }
 
+/// "light 'Lamp': node tree" and how many more.
+std::string told(const std::vector<std::string>& not_followed) {
+  if (not_followed.size() == 1) return not_followed.front();
+  return fmt::format("{} and {} more", not_followed.front(), not_followed.size() - 1);
+}
+
+std::string told(const BounceLimit& limit) {
+  if (limit.bounces < 0 || std::abs(limit.relative_bias.value) < worth_telling) return "";
+  return fmt::format(", but for the bounce limit of {}, which costs {:+.1f} %", limit.bounces,
+                     100 * limit.relative_bias.value);
+}
+
 }  // namespace
+
+Statistic scene_bias(const Report& report) {
+  std::vector<Statistic> biases;
+  biases.reserve(report.scene.size());
+  for (const BasisMetrics& basis : report.scene) biases.push_back(basis.metrics.relative_bias);
+  return mean(biases);
+}
 
 std::string receiver_finding(const Report& receiver) {
   const ObjectComparison* worst = nullptr;
@@ -83,21 +104,25 @@ std::string receiver_finding(const Report& receiver) {
     if (worst == &object) largest = own;
   }
   if (receiver.objects.empty()) return "receiver: nothing was compared";
-  std::vector<Statistic> biases;
-  biases.reserve(receiver.scene.size());
-  for (const BasisMetrics& basis : receiver.scene) biases.push_back(basis.metrics.relative_bias);
-  const std::string whole = percent(mean(biases), true);
+  const std::string limit = told(receiver.bounce_limit);
   const std::string unsure =
       too_noisy == 0 ? ""
                      : fmt::format("; {} of {} objects are too noisy to tell, bake with more samples",
                                    too_noisy, receiver.objects.size());
   if (worst == nullptr)
-    return fmt::format("receiver: no bias beyond the noise ({} over the scene){}", whole, unsure);
-  return fmt::format("receiver: {} of {} objects have a bias beyond the noise, most of all {} ({:+.1f} %){}",
-                     off, receiver.objects.size(), worst->key, 100 * largest, unsure);
+    return fmt::format("receiver: no bias beyond the noise ({} over the scene){}{}",
+                       percent(scene_bias(receiver), true), limit, unsure);
+  const std::string most =
+      fmt::format("beyond the noise, most of all {} ({:+.1f} %)", worst->key, 100 * largest);
+  const auto& beyond = receiver.not_followed;
+  if (beyond.empty())
+    return fmt::format("receiver: {} of {} objects have a bias {}{}{}", off, receiver.objects.size(), most,
+                       limit, unsure);
+  return fmt::format("receiver: not followed by the reference: {}; {} of {} objects differ {}{}{}",
+                     told(beyond), off, receiver.objects.size(), most, limit, unsure);
 }
 
-std::string recipe_finding(const Decomposition& scene) {
+std::string recipe_finding(const Decomposition& scene, const std::vector<std::string>& not_followed) {
   const auto bases = directional(scene.bases, [](const BasisDecomposition& basis) { return basis.basis; });
   if (bases.empty()) return "flat-normal-map: nothing was compared";
   std::vector<Statistic> totals;
@@ -112,11 +137,13 @@ std::string recipe_finding(const Decomposition& scene) {
   });
   std::ranges::stable_sort(causes, std::ranges::greater{},
                            [](const auto& cause) { return std::abs(cause.second.value); });
-  std::string told;
+  std::string causes_told;
   for (const auto& [name, value] : causes)
-    told += fmt::format("{}{} {:+.1f} %", told.empty() ? "" : ", ", name, 100 * value.value);
-  return fmt::format("flat-normal-map: {:+.1f} % on average{}{}; unexplained {}", 100 * mean(totals).value,
-                     told.empty() ? "" : ", from ", told, percent(residual, true));
+    causes_told += fmt::format("{}{} {:+.1f} %", causes_told.empty() ? "" : ", ", name, 100 * value.value);
+  const bool followed = not_followed.empty() || !is_off(residual);
+  return fmt::format("flat-normal-map: {:+.1f} % on average{}{}; {} {}", 100 * mean(totals).value,
+                     causes_told.empty() ? "" : ", from ", causes_told,
+                     followed ? "unexplained" : "not followed by the reference", percent(residual, true));
 }
 
 }  // namespace rnmbake

@@ -11,6 +11,7 @@
 #include "pipeline/split_study.h"
 #include "pipeline/steps.h"
 #include "pipeline/validate_finding.h"
+#include "pipeline/validate_scope.h"
 #include "pipeline/variants.h"
 
 #include <algorithm>
@@ -31,6 +32,12 @@ struct Emulation {
   const char* fault;
   TraceVariant variant;
 };
+
+/// The truth has no limit of bounces, whatever that of the bakes.
+ReferencePlan without_limit(ReferencePlan plan) {
+  plan.bounces = -1;
+  return plan;
+}
 
 /// The targets whose objects fit a pattern; the word "none" alone chooses none.
 TargetList chosen(const ExportedScene& exported, const std::vector<std::string>& patterns) {
@@ -63,12 +70,15 @@ class ValidateRun {
         options_(options),
         dir_(workspace.settings().output.dir),
         exported_(with_camera(export_scene(workspace))),
-        plan_(plan_reference(workspace.config(), exported_.exchange.survey.blender_version)),
+        plan_(without_limit(plan_reference(workspace.config(), exported_.exchange.survey.blender_version))),
         scene_(exported_.exchange, plan_.blender_version),
         base_{workspace, exported_, scene_, bases},
         decomposed_(chosen(exported_, options.decompose)),
         own_(has_own_materials()),
-        faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))) {
+        faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))),
+        limit_(workspace.settings().bake.bounces),
+        limit_matters_(bounces_matter(exported_.exchange, limit_)),
+        not_followed_(not_followed(exported_.exchange)) {
     if (options.split_study) study_ = splittings(exported_);
   }
 
@@ -76,6 +86,8 @@ class ValidateRun {
     Steps steps(step_count(), whole_weight());
     for (const BakeVariant& variant : bakes()) bake(variant, steps);
     trace(exported_.list, truth(), "tracing the truth", steps);
+    if (limit_matters_)
+      trace(exported_.list, limited(), fmt::format("tracing the truth with {} bounces", limit_), steps);
     for (const auto& [fault, variant] : emulations())
       trace(decomposed_, variant, fmt::format("tracing the recipe's faults up to {}", fault), steps);
     SplitStudy study;
@@ -122,7 +134,7 @@ class ValidateRun {
   /// Objects whose materials the lambert scene only stands in for.
   [[nodiscard]] bool has_own_materials() const {
     return std::ranges::any_of(exported_.exchange.outside, [](const OutsideModel& outside) {
-      return outside.owner.starts_with("object ");
+      return outside.owner.starts_with("object ") && outside.what != outside.untraced;
     });
   }
 
@@ -145,11 +157,20 @@ class ValidateRun {
 
   [[nodiscard]] TraceVariant truth() const { return {plan_, "reference", 8, "tracing"}; }
 
+  /// The truth as far as the bakes follow it: the same paths, but shorter.
+  [[nodiscard]] TraceVariant limited() const {
+    TraceVariant variant = truth();
+    if (!limit_matters_) return variant;
+    variant.plan.bounces = limit_;
+    variant.folder = std::filesystem::path("emulation") / "0-bounce-limit";
+    return variant;
+  }
+
   /// The faults that this Blender has, one more each time.
   [[nodiscard]] std::vector<Emulation> emulations() const {
     std::vector<Emulation> list;
     if (!decomposes()) return list;
-    TraceVariant variant = truth();
+    TraceVariant variant = limited();
     variant.plan.flat_normal_map = true;
     int number = 0;
     for (const NamedFault& fault : all_faults()) {
@@ -164,10 +185,11 @@ class ValidateRun {
   }
 
   [[nodiscard]] std::size_t step_count() const {
-    return 2 * bakes().size() + 1 + emulations().size() + study_.size() + (shows_view() ? 1 : 0) + 1;
+    return 2 * bakes().size() + traces() + study_.size() + (shows_view() ? 1 : 0) + 1;
   }
+  [[nodiscard]] std::size_t traces() const { return 1 + emulations().size() + (limit_matters_ ? 1 : 0); }
   [[nodiscard]] double whole_weight() const {
-    double sum = 0.1 + trace_weight * double(1 + emulations().size()) + study_weight * double(study_.size());
+    double sum = 0.1 + trace_weight * double(traces()) + study_weight * double(study_.size());
     if (shows_view()) sum += view_weight;
     for (const BakeVariant& variant : bakes()) sum += 2 * weight_of(variant);
     return sum;
@@ -201,20 +223,34 @@ class ValidateRun {
     return {half_folder(base_, variant, 0), half_folder(base_, variant, 1)};
   }
 
-  [[nodiscard]] Report against_truth(Recipe recipe, const std::string& label) const {
+  [[nodiscard]] std::filesystem::path folder_of(const TraceVariant& variant) const {
+    return dir_ / variant.folder;
+  }
+
+  [[nodiscard]] Report against(const TraceVariant& traced, Recipe recipe, bool with_maps) const {
     const bool whole_recipe = recipe == Recipe::flat_normal_map && own_;
     const Halves sides = halves(recipe, whole_recipe ? Materials::full : Materials::lambert);
     CompareOptions options;
-    options.candidate = {sides.first, sides.second, label};
-    options.reference = {dir_ / truth().folder, {}, "reference"};
-    return compare_lightmaps(options);
+    options.candidate = {sides.first, sides.second,
+                         recipe == Recipe::receiver ? "receiver" : "flat-normal-map"};
+    options.reference = {folder_of(traced), {}, "reference"};
+    options.with_maps = with_maps;
+    Report report = compare_lightmaps(options);
+    report.not_followed = not_followed_;
+    if (limit_matters_) report.bounce_limit = bounce_limit(limit_, folder_of(limited()), folder_of(truth()));
+    return report;
+  }
+
+  /// About the receiver as a meter: what it was told to leave out is no error of its own.
+  [[nodiscard]] std::string judge(const Report& receiver) const {
+    return receiver_finding(limit_matters_ ? against(limited(), Recipe::receiver, false) : receiver);
   }
 
   [[nodiscard]] DecomposeInput decompose_input() const {
     DecomposeInput input;
-    input.truth = dir_ / truth().folder;
-    for (const auto& [fault, variant] : emulations())
-      input.emulated.push_back({fault, dir_ / variant.folder});
+    input.truth = folder_of(truth());
+    if (limit_matters_) input.emulated.push_back({"bounce limit", folder_of(limited())});
+    for (const auto& [fault, variant] : emulations()) input.emulated.push_back({fault, folder_of(variant)});
     input.recipe = halves(Recipe::flat_normal_map, Materials::lambert);
     input.receiver = halves(Recipe::receiver, Materials::lambert);
     if (own_) {
@@ -225,15 +261,15 @@ class ValidateRun {
   }
 
   [[nodiscard]] Validation compare(const SplitStudy& study) const {
-    Validation result{against_truth(Recipe::receiver, "receiver"), {}, complete_};
+    Validation result{against(truth(), Recipe::receiver, true), {}, complete_};
     Report& receiver = result.receiver;
-    receiver.finding = receiver_finding(receiver);
+    receiver.finding = judge(receiver);
     receiver.study = study;
     if (decomposes()) {
       receiver.decompositions = decompose(decompose_input());
-      const std::string of_recipe = recipe_finding(receiver.decompositions.front());
+      const std::string of_recipe = recipe_finding(receiver.decompositions.front(), not_followed_);
       receiver.finding += "; " + of_recipe;
-      result.recipe = against_truth(Recipe::flat_normal_map, "flat-normal-map");
+      result.recipe = against(truth(), Recipe::flat_normal_map, true);
       result.recipe->finding = of_recipe + ".";
       result.recipe->decompositions = receiver.decompositions;
       result.recipe->study = study;
@@ -257,12 +293,7 @@ class ValidateRun {
           "The decomposition is of flat-normal-map minus the reference. Causes are added to the tracer one "
           "after "
           "the other; 'residual' is Cycles' bake minus the tracer with all of them.");
-    for (const OutsideModel& outside : exported_.exchange.outside) {
-      if (outside.owner.starts_with("object ")) continue;  // stands with the object
-      std::string what;
-      for (const std::string& one : outside.what) what += (what.empty() ? "" : ", ") + one;
-      report.notes.push_back(outside.owner + ": outside the reference's model: " + what);
-    }
+    for (std::string& note : scope_notes(exported_.exchange)) report.notes.push_back(std::move(note));
   }
 
   Workspace& workspace_;
@@ -275,6 +306,9 @@ class ValidateRun {
   TargetList decomposed_;
   bool own_;
   RecipeFaults faults_;
+  int limit_;           // bounces that the bakes follow
+  bool limit_matters_;  // so that it is traced, too
+  std::vector<std::string> not_followed_;
   std::vector<Splitting> study_;
   bool complete_ = true;
 };

@@ -101,6 +101,12 @@ struct ThresholdOutcome {
 
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
+/// Light that is lost beyond the number of bounces that a bake follows.
+struct BounceLimit {
+  int bounces = -1;         // -1: not measured, for it cannot matter
+  Statistic relative_bias;  // mean over the bases, to the reference's mean
+};
+
 struct Report {
   std::string title;
   std::string candidate_label = "candidate", reference_label = "reference";
@@ -111,6 +117,8 @@ struct Report {
   std::vector<BasisMetrics> scene;                          // all objects as one, texel by texel
   std::vector<std::string> candidate_only, reference_only;  // keys of objects without a partner
   std::vector<std::string> notes;
+  std::vector<std::string> not_followed;  // by the reference, though the candidate has it
+  BounceLimit bounce_limit;
   std::vector<Decomposition> decompositions;
   SplitStudy study;
   std::vector<ViewComparison> views;

@@ -95,6 +95,11 @@ json describe(const Decomposition& decomposition) {
   return {{"subject", decomposition.subject}, {"bases", describe_all(decomposition.bases)}};
 }
 
+json describe(const BounceLimit& limit) {
+  if (limit.bounces < 0) return nullptr;
+  return {{"bounces", limit.bounces}, {"relative_bias", describe(limit.relative_bias)}};
+}
+
 json describe(const StudyPoint& point) {
   return {{"name", point.name},
           {"targets", point.targets},
@@ -152,6 +157,8 @@ nlohmann::ordered_json report_document(const Report& report) {
           {"candidate_only", report.candidate_only},
           {"reference_only", report.reference_only},
           {"notes", report.notes},
+          {"not_followed", report.not_followed},
+          {"bounce_limit", describe(report.bounce_limit)},
           {"decompositions", describe_all(report.decompositions)},
           {"study", describe_all(report.study.points)},
           {"views", describe_all(report.views)},

@@ -15,7 +15,7 @@ namespace rnmbake {
 /// Linear colours, row 0 on top: texel (x, y) has the UV (x + 0.5) / width, 1 - (y + 0.5) / height.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Vec3> texels;  // finite, not negative
+  std::vector<Vec3> texels;  // finite; of emission and the world they may be negative
   std::string name = {};     // Blender's, for messages
 };
 
@@ -32,7 +32,7 @@ struct NormalMap {
 struct Look {
   std::string material;
   Vec3 albedo{0, 0, 0};                            // in [0, 1]
-  Vec3 emission{0, 0, 0};                          // radiance, the same from both sides
+  Vec3 emission{0, 0, 0};                          // radiance, the same from both sides; may be negative
   int albedo_picture = -1, emission_picture = -1;  // indices into Exchange::pictures
   int picture_uv = -1;                             // index into Exchange::picture_uvs
   int normal_map = -1;                             // index into Exchange::normal_maps
@@ -45,8 +45,8 @@ struct Look {
   }
 };
 
-/// Radiance from where nothing is hit. A picture is equirectangular as Blender's: the top row is +z, the
-/// middle column +x, the left quarter +y (see world_uv()).
+/// Radiance from where nothing is hit; may be negative. A picture is equirectangular as Blender's: the top
+/// row is +z, the middle column +x, the left quarter +y (see world_uv()).
 struct World {
   Vec3 radiance{0, 0, 0};
   int picture = -1;
@@ -66,6 +66,8 @@ struct Camera {
 struct OutsideModel {
   std::string owner;              // "object 'Vase'", "light 'Lamp'", "world"
   std::vector<std::string> what;  // "glossy", "volume", ...
+  /// Of these, what is left in the lambert scene, so that Cycles' bakes of that differ from what is traced.
+  std::vector<std::string> untraced = {};
 };
 
 struct Exchange {

@@ -9,12 +9,13 @@ namespace {
 constexpr const char* remedy = "export the scene again";
 constexpr float rounding = 1e-4F;  // of sums of colours that make 1
 
-bool is_light(float value) {
-  return value >= 0 && std::isfinite(value);
+bool is_finite(const Vec3& color) {
+  return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
 }
 
-bool is_light(const Vec3& color) {
-  return is_light(color.x) && is_light(color.y) && is_light(color.z);
+bool is_share(const Vec3& color) {
+  const auto is_share = [](float value) { return value >= 0 && value <= 1; };
+  return is_share(color.x) && is_share(color.y) && is_share(color.z);
 }
 
 float largest(const Vec3& color) {
@@ -43,15 +44,15 @@ void check_pictures(const Exchange& scene) {
 
 void check_look(const Exchange& scene, const Look& look) {
   const std::string owner = "material '" + look.material + "'";
-  if (!is_light(look.albedo) || largest(look.albedo) > 1)
+  if (!is_share(look.albedo))
     fail(ExitCode::invalid_input, "{}: its albedo is not within 0 and 1; {}", owner, remedy);
-  if (!is_light(look.transmittance) || largest(look.transmittance) > 1)
+  if (!is_share(look.transmittance))
     fail(ExitCode::invalid_input, "{}: its transmittance is not within 0 and 1; {}", owner, remedy);
   if (look.albedo_picture < 0 && look.transmittance_picture < 0 &&
       largest(look.albedo + look.transmittance) > 1 + rounding)
     fail(ExitCode::invalid_input, "{}: its albedo and transmittance together are above 1; {}", owner, remedy);
-  if (!is_light(look.emission))
-    fail(ExitCode::invalid_input, "{}: its emission is negative or not finite; {}", owner, remedy);
+  if (!is_finite(look.emission))
+    fail(ExitCode::invalid_input, "{}: its emission is not finite; {}", owner, remedy);
   check_index(look.albedo_picture, scene.pictures.size(), true, owner, "albedo picture");
   check_index(look.emission_picture, scene.pictures.size(), true, owner, "emission picture");
   check_index(look.transmittance_picture, scene.pictures.size(), true, owner, "transmittance picture");
@@ -117,8 +118,8 @@ void check_exchange(const Exchange& scene) {
   check_pictures(scene);
   for (const Look& look : scene.looks) check_look(scene, look);
   check_objects(scene);
-  if (!is_light(scene.world.radiance))
-    fail(ExitCode::invalid_input, "world: its radiance is negative or not finite; {}", remedy);
+  if (!is_finite(scene.world.radiance))
+    fail(ExitCode::invalid_input, "world: its radiance is not finite; {}", remedy);
   check_index(scene.world.picture, scene.pictures.size(), true, "world", "picture");
   if (scene.camera) check_camera(*scene.camera);
 }

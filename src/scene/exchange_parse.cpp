@@ -84,8 +84,9 @@ Exchange parse_exchange_content(const json& content, Blob& data) {
   scene.world.picture = index_at(own.at("world"), "picture");
   if (const json& camera = own.at("camera"); !camera.is_null()) scene.camera = read_camera(camera);
   for (const json& entry : own.at("outside"))
-    scene.outside.push_back(
-        {entry.at("owner").get<std::string>(), entry.at("what").get<std::vector<std::string>>()});
+    scene.outside.push_back({entry.at("owner").get<std::string>(),
+                             entry.at("what").get<std::vector<std::string>>(),
+                             entry.value("untraced", std::vector<std::string>())});
   check_exchange(scene);
   return scene;
 }

@@ -31,9 +31,9 @@ void read_texels(const json& entry, Blob& data, const Owner& owner, Picture& pic
 }
 
 void check_texels(const Picture& picture, const Owner& owner) {
-  const auto light = [](float value) { return value >= 0 && std::isfinite(value); };
-  const auto bad = std::find_if_not(picture.texels.begin(), picture.texels.end(),
-                                    [&](const Vec3& c) { return light(c.x) && light(c.y) && light(c.z); });
+  const auto bad = std::find_if_not(picture.texels.begin(), picture.texels.end(), [](const Vec3& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+  });
   if (bad == picture.texels.end()) return;
   const auto place = static_cast<int>(bad - picture.texels.begin());
   fail(ExitCode::invalid_input,

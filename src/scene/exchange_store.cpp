@@ -69,6 +69,7 @@ json store_light(const LightInfo& light) {
           {"energy", light.energy},
           {"color", light.color},
           {"shape", light.shape},
+          {"max_bounces", light.max_bounces},
           {"sizes", light.sizes},
           {"matrix", store_matrix(light.to_world)},
           {"outside_model", light.outside_model}};
@@ -143,7 +144,8 @@ json store_exchange(const Exchange& scene, std::string& data) {
     if (!scene.takes_part(i)) own["unlit"].push_back(i);
   }
   for (const OutsideModel& outside : scene.outside)
-    own["outside"].push_back({{"owner", outside.owner}, {"what", outside.what}});
+    own["outside"].push_back(
+        {{"owner", outside.owner}, {"what", outside.what}, {"untraced", outside.untraced}});
   content["exchange"] = std::move(own);
   return content;
 }

@@ -57,6 +57,7 @@ LightInfo read_light(const json& entry) {
   light.energy = entry.at("energy").get<double>();
   light.color = entry.at("color").get<std::array<double, 3>>();
   light.shape = entry.at("shape").get<std::string>();
+  light.max_bounces = entry.value("max_bounces", light.max_bounces);
   light.sizes = entry.at("sizes").get<std::map<std::string, double>>();
   light.to_world = read_matrix(entry.at("matrix"), "light '" + light.name + "'");
   light.outside_model = entry.at("outside_model").get<std::vector<std::string>>();

@@ -24,6 +24,7 @@ struct LightInfo {
   std::string name, type;  // POINT, SUN, SPOT, AREA
   double energy = 0;       // W, or strength for a sun
   std::array<double, 3> color{1, 1, 1};
+  int max_bounces = 1024;                  // it lights paths that bounced off no more surfaces
   std::string shape;                       // of an area light: SQUARE, RECTANGLE, DISK, ELLIPSE
   std::map<std::string, double> sizes;     // Blender's names: shadow_soft_size, angle, spot_size, size, ...
   Mat44 to_world;                          // row-vector convention

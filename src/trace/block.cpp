@@ -15,7 +15,7 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const Sites& sites, const 
       sites_(sites),
       options_(options),
       own_(own),
-      path_{options.bounces, options.light_sampling, options.chance_hits, nullptr, nullptr, Vec3(0)},
+      path_{options.bounces, 1, options.light_sampling, options.chance_hits, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
       framed_(coefficients_ > 0 || options.faults.any() || !few_directions()),

@@ -189,7 +189,9 @@ float spread_share(const Lamp& lamp, float cosine) {
   return std::max(1 - tangent / lamp.spread_tangent, 0.0F) * lamp.spread_scale;
 }
 
-LightSample sample_lamp(const Lamp& lamp, const Vec3& point, const Vec2& u) {
+namespace {
+
+LightSample sample_kind(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   switch (lamp.kind) {
     case Lamp::Kind::point:
       return sample_point(lamp, point);
@@ -205,6 +207,14 @@ LightSample sample_lamp(const Lamp& lamp, const Vec3& point, const Vec2& u) {
       return sample_ellipse(lamp, point, u);
   }
   return {};
+}
+
+}  // namespace
+
+LightSample sample_lamp(const Lamp& lamp, const Vec3& point, const Vec2& u) {
+  LightSample sample = sample_kind(lamp, point, u);
+  sample.max_bounces = lamp.max_bounces;
+  return sample;
 }
 
 }  // namespace rnmbake

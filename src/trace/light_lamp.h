@@ -24,6 +24,7 @@ struct Lamp {
   Vec3 position{0, 0, 0};
   Vec3 axis{0, 0, -1};     // unit; where a sun, a spot or an area shines
   Vec3 radiance{0, 0, 0};  // point: radiant intensity; sun without size: irradiance at normal incidence
+  int max_bounces = 1024;  // LightSample::max_bounces
   float radius = 0;        // disk, sphere; of a sun: tangent of half its angle
   bool flat_sun = false;   // the sun is a flat disk, uniform per area, not per solid angle
   SpotCone spot;

@@ -46,6 +46,7 @@ class Reader {
     const auto* place = light.to_world[3];
     lamp.position = Vec3(Vec3d(place[0], place[1], place[2]));
     lamp.axis = -column(light, 2).normalized();
+    lamp.max_bounces = light.max_bounces;
     if (light.type == "SUN")
       read_sun(light, lamp);
     else if (light.type == "AREA")

@@ -21,6 +21,8 @@ struct LightSample {
   float pdf = 0;
   /// A ray in this direction could find it too: weigh the two ways against each other.
   bool chance_hits = false;
+  /// It lights paths that bounced off no more surfaces.
+  int max_bounces = 1024;
 };
 
 /// `normal`: only light from its side counts; the zero vector: light from everywhere.

@@ -32,15 +32,15 @@ struct Reflector {
   [[nodiscard]] bool sees_below_face() const { return recipe != nullptr && recipe->faults().below_horizon; }
 };
 
-/// Irradiance/pi at a vertex from one light that was chosen by chance.
+/// Irradiance/pi at a vertex from one light that was chosen by chance, for a path of so many bounces before.
 Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflector& reflector,
-                   const PathOptions& options, Sampler& sampler, std::int64_t& rays) {
+                   const PathOptions& options, int bounces, Sampler& sampler, std::int64_t& rays) {
   const LightSample light = scene.lights().sample(vertex.start(), reflector.closure.normal, sampler.next3());
   const float cosine = reflector.cosine(light.direction);
   // Not from under the face, where chance would not find it either.
   const bool above = vertex.face.dot(light.direction) > 0;
   const bool counts = above || (reflector.sees_below_face() && sampled_below(scene.lights(), light));
-  if (!(light.pdf > 0) || !(cosine > 0) || !counts) return Vec3(0);
+  if (!(light.pdf > 0) || !(cosine > 0) || !counts || bounces > light.max_bounces) return Vec3(0);
   ++rays;
   const Vec3 start = above ? vertex.start() : options.own->start_below(vertex, light.direction);
   const Visibility left = scene.visibility({start, light.direction, short_of(light.distance, vertex.gap)});
@@ -66,7 +66,8 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     const Reflector reflector(vertex, options);
     const Vec3& normal = reflector.closure.normal;
     if (options.light_sampling) {
-      sum += throughput * sampled_light(scene, vertex, reflector, options, sampler, rays);
+      const int before = options.before + bounce;
+      sum += throughput * sampled_light(scene, vertex, reflector, options, before, sampler, rays);
     }
     if (survival < 1) {
       if (!(sampler.next1() < survival)) break;

@@ -19,6 +19,7 @@ namespace rnmbake {
 
 struct PathOptions {
   int bounces = -1;  // -1: no limit
+  int before = 1;    // surfaces that the path bounced off before it came to the vertex
   bool light_sampling = true, chance_hits = true;
 
   /// Where the recipe's self-reflection is made: the target, and the basis vector that it has for a normal.

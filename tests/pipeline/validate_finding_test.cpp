@@ -49,6 +49,32 @@ TEST(ValidateFinding, NamesTheWorstObject) {
   EXPECT_EQ(said, "receiver: 2 of 3 objects have a bias beyond the noise, most of all b (-50.0 %)");
 }
 
+TEST(ValidateFinding, WhatTheReferenceDoesNotFollowIsNoBias) {
+  Report of = report({object("a", statistic(-0.819, 0.001)), object("b", {})});
+  of.not_followed = {"light 'Lamp': node tree", "world: volume"};
+  EXPECT_EQ(
+      receiver_finding(of),
+      "receiver: not followed by the reference: light 'Lamp': node tree and 1 more; 1 of 2 objects differ "
+      "beyond the noise, most of all a (-81.9 %)");
+  Report fine = report({object("a", {})});
+  fine.not_followed = of.not_followed;
+  EXPECT_EQ(receiver_finding(fine).rfind("receiver: no bias beyond the noise", 0), 0U);
+
+  const BasisDecomposition rnm{"rnm0", 1, {row("noise", 0), row("residual", -0.8)}, row("total", -0.8)};
+  EXPECT_NE(recipe_finding({"scene", {rnm}}, of.not_followed).find("; not followed by the reference -80.0 %"),
+            std::string::npos);
+  EXPECT_NE(recipe_finding({"scene", {rnm}}, {}).find("; unexplained -80.0 %"), std::string::npos);
+}
+
+TEST(ValidateFinding, SaysWhatTheLimitOfBouncesCosts) {
+  Report of = report({object("a", {})});
+  of.bounce_limit = {32, statistic(-0.064, 0.001)};
+  EXPECT_NE(receiver_finding(of).find(", but for the bounce limit of 32, which costs -6.4 %"),
+            std::string::npos);
+  of.bounce_limit = {32, statistic(-0.0004, 0.001)};
+  EXPECT_EQ(receiver_finding(of).find("bounce"), std::string::npos);
+}
+
 TEST(ValidateFinding, TellsTheCausesByTheirSize) {
   BasisDecomposition flat{"flat", 1, {row("bump shadowing", 0.9)}, row("total", 0.9)};
   BasisDecomposition rnm{"rnm0",
@@ -56,7 +82,7 @@ TEST(ValidateFinding, TellsTheCausesByTheirSize) {
                          {row("tilt clamp", 0.02), row("bump shadowing", -0.13),
                           row("light from below", 0.0004), row("noise", 0), row("residual", 0.0005)},
                          row("total", -0.11)};
-  const std::string said = recipe_finding({"scene", {flat, rnm}});
+  const std::string said = recipe_finding({"scene", {flat, rnm}}, {});
   EXPECT_EQ(said.rfind("flat-normal-map: -11.0 % on average, from bump shadowing -13.0 %, tilt clamp +2.0 %; "
                        "unexplained ",
                        0),

@@ -140,6 +140,8 @@ void add_everything_else(Report& report) {
   report.candidate_only = {"<b>lamp</b>"};
   report.reference_only = {"shelf"};
   report.objects.back().outside_model = {"glossy"};
+  report.not_followed = {"light 'Lamp': node tree"};
+  report.bounce_limit = {32, around(-0.064, 0.001)};
 }
 
 std::vector<std::string> numbered(int count) {

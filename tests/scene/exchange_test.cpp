@@ -107,6 +107,19 @@ TEST(Exchange, ComesBackAsItWasWritten) {
   EXPECT_EQ(after.camera->to_world, before.camera->to_world);
   EXPECT_EQ(after.camera->shift_x, 0.125);
   EXPECT_EQ(after.outside[0].what, before.outside[0].what);
+  EXPECT_EQ(after.outside[0].untraced, before.outside[0].untraced);
+  EXPECT_EQ(after.survey.lights[0].max_bounces, before.survey.lights[0].max_bounces);
+}
+
+TEST(Exchange, LightMayBeNegative) {
+  Exchange scene = everything();
+  scene.looks[1].emission = Vec3(-2, 0, 1);
+  scene.pictures[2].texels[0] = Vec3(-0.1F, 0, 0);
+  scene.world.radiance = Vec3(0, -1, 0);
+  const Exchange after = parse_exchange(bytes_of(scene), "memory");
+  EXPECT_EQ(after.looks[1].emission, Vec3(-2, 0, 1));
+  EXPECT_EQ(after.pictures[2].texels[0], Vec3(-0.1F, 0, 0));
+  EXPECT_EQ(after.world.radiance, Vec3(0, -1, 0));
 }
 
 TEST(Exchange, KeepsPicturesInTheSmallestFormThatLosesNothing) {
@@ -200,7 +213,9 @@ TEST(Exchange, RefusesWhatIsNoNumber) {
   const auto offset = [](const json& entry) { return entry.at("offset").get<std::size_t>(); };
   EXPECT_SAYS("picture 'floats': texel (0, 0)",
               [&](Parts& p) { p.put(offset(p.own()["pictures"][2]), nan); });
-  EXPECT_SAYS("picture 'floats'", [&](Parts& p) { p.put(offset(p.own()["pictures"][2]), -1); });
+  EXPECT_SAYS("picture 'floats'", [&](Parts& p) {
+    p.put(offset(p.own()["pictures"][2]), std::numeric_limits<float>::infinity());
+  });
   EXPECT_SAYS("picture UVs 0", [&](Parts& p) { p.put(offset(p.own()["picture_uvs"][0]), nan); });
   EXPECT_SAYS("object 'Wall/柱': vertex 0",
               [&](Parts& p) { p.put(p.content["meshes"][0]["positions"].get<std::size_t>(), nan); });
@@ -217,13 +232,10 @@ TEST(Exchange, RefusesWhatIsNoNumber) {
     p.own()["looks"][1]["transmittance"] = {0.5, 0.8, 0};
   });
   EXPECT_SAYS("material 'lamp': its emission", [](Parts& p) {
-    p.own()["looks"][1]["emission"] = {-2, 0, 0};
-  });
-  EXPECT_SAYS("material 'lamp': its emission", [](Parts& p) {
     p.own()["looks"][1]["emission"] = {1e300, 0, 0};
   });
   EXPECT_SAYS("emission of material 'lamp'", [](Parts& p) { p.own()["looks"][1]["emission"] = {1, 2}; });
-  EXPECT_SAYS("world: its radiance", [](Parts& p) { p.own()["world"]["radiance"] = {0, 0, -1}; });
+  EXPECT_SAYS("world: its radiance", [](Parts& p) { p.own()["world"]["radiance"] = {0, 0, 1e300}; });
   EXPECT_SAYS("camera 'view'", [](Parts& p) { p.own()["camera"]["angle_x"] = 4; });
   EXPECT_SAYS("camera 'view'", [](Parts& p) { p.own()["camera"]["resolution_y"] = 0; });
   EXPECT_SAYS("camera 'view'", [](Parts& p) { p.own()["camera"]["matrix"] = std::vector<int>(16); });

@@ -30,6 +30,7 @@ inline Exchange everything() {
   lamp.type = "AREA";
   lamp.shape = "DISK";
   lamp.energy = 12.5;
+  lamp.max_bounces = 3;
   lamp.color = {1, 0.5, 0.25};
   lamp.sizes = {{"size", 0.1}, {"size_y", 0.2}};
   scene.survey.lights = {lamp};
@@ -51,7 +52,7 @@ inline Exchange everything() {
   scene.camera->name = "view";
   scene.camera->to_world = wall.to_world;
   scene.camera->shift_x = 0.125;
-  scene.outside = {{"object 'Wall'", {"glossy", "bump"}}, {"world", {"volume"}}};
+  scene.outside = {{"object 'Wall'", {"glossy", "bump"}}, {"world", {"volume"}, {"volume"}}};
   return scene;
 }
 

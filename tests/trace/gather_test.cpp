@@ -4,6 +4,7 @@
 #include "trace/trace_scenes.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -173,6 +174,37 @@ TEST(Gather, BouncesCountSurfacesAfterTheTexelsOwn) {
     double truth = 0;  // e (1 + r + r^2 + ...), the last for light that bounced so often
     for (int i = 0; i <= bounces; ++i) truth += std::pow(0.5, i);
     expect_unbiased(furnace(), 0, options, {truth, truth * sky_share, truth * sky_share, truth * sky_share});
+  }
+}
+
+/// A closed room gets back r of what it got: with k bounces its walls have 1 + r + ... + r^k on average.
+TEST(Gather, LampsLightNoMoreBouncesThanTheirOwn) {
+  for (const int most : {0, 2, 1024}) {
+    Exchange scene = furnace(1, Vec3(0), 0, 0.8F);
+    scene.survey.lights.push_back(light("POINT", 24 * pi, {{"shadow_soft_size", 0}}));
+    scene.survey.lights.back().max_bounces = most;
+    const Gathered gathered = gather_one(scene, 0, all_directions(256), 48, 8);
+    const GatheredDirection& flat = gathered.directions[0];
+    const double truth = (1 - std::pow(0.8, most + 1)) / (1 - 0.8);
+    EXPECT_LT(flat.mean_error[1], 0.003 * truth) << "the test is too weak";
+    EXPECT_LT(std::abs(flat.mean[1] - truth), 4.5 * flat.mean_error[1]) << most;
+  }
+}
+
+TEST(Gather, NegativeLightTakesAwayWhatPositiveLightGives) {
+  const auto floor = [](float emission) {
+    Exchange scene;
+    scene.world.radiance = Vec3(1);
+    add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
+    add_object(scene, "panel", {level(1, 1, false)}, Vec3(0), Vec3(emission));
+    return gather_one(scene, 0, all_directions(512));
+  };
+  const Gathered sink = floor(-0.5F), none = floor(0), lamp = floor(0.5F);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [low, middle, high] = std::tie(sink.directions[k], none.directions[k], lamp.directions[k]);
+    const double error = std::hypot(low.mean_error[1], high.mean_error[1], 2 * middle.mean_error[1]);
+    EXPECT_GT(high.mean[1] - low.mean[1], 20 * error) << "the test is too weak";
+    EXPECT_LT(std::abs(low.mean[1] + high.mean[1] - 2 * middle.mean[1]), 4.5 * error);
   }
 }
 

@@ -103,8 +103,7 @@ TEST_F(ExportWithBlender, WorldPictureLiesAsCyclesReadsIt) {
     }
   }
   compare_with_bake(scene, session->file("picture.json"));
-  ASSERT_NE(outside(scene, "world"), nullptr);
-  EXPECT_EQ(*outside(scene, "world"), Words{"light path"});
+  EXPECT_EQ(outside(scene, "world"), nullptr);  // what it asks Light Path nodes is the same for all bounces
 }
 
 TEST_F(ExportWithBlender, SkyWithSunGivesTheLightThatCyclesBakes) {
@@ -153,7 +152,7 @@ TEST_F(ExportWithBlender, CarriesEveryThingOrSaysThatItDoesNot) {
   EXPECT_EQ(*outside(scene, "object 'shadowless'"), Words{"casts no shadow"});
   ASSERT_EQ(scene.survey.lights.size(), 1U);
   EXPECT_EQ(scene.survey.lights[0].name, "lamp");
-  EXPECT_NE(outside(scene, "light 'hidden'"), nullptr);
+  EXPECT_EQ(outside(scene, "light 'hidden'"), nullptr);
 
   ASSERT_TRUE(scene.camera);
   EXPECT_TRUE(scene.camera->orthographic);
