@@ -68,6 +68,7 @@ class ValidateRun {
         decomposed_(chosen(exported_, options.decompose)),
         own_(has_own_materials()),
         faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))) {
+    check_light(workspace.config(), exported_.exchange.survey);
     if (options.split_study) study_ = splittings(exported_);
   }
 
