@@ -22,6 +22,11 @@ foreach(CHECK accuracy tracing)
   set_tests_properties(bench.${CHECK} PROPERTIES LABELS unit TIMEOUT 60)
 endforeach()
 
+# What scripts for Blender do without it.
+add_test(NAME scripts.keys
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/scripts/keys_check.py)
+set_tests_properties(scripts.keys PROPERTIES LABELS unit TIMEOUT 60)
+
 # Bad input through the real program and a real Blender: one test for each class of bad_input/*_check.py.
 foreach(CHECK files.Scenes files.Folders content.Content content.Names content.Scripts
               blender.Environment blender.Failing blender.Stopped)

@@ -22,6 +22,7 @@ def shown_surfaces(depsgraph):
 class Keys:
     def __init__(self):
         self._given = set()
+        self._next = {}  # number to try first for each key: counting up from 0 each time would take for ever
 
     def new(self, instance):
         """The object's name; instancer/name#n for instances, and wherever a library repeats a name."""
@@ -31,9 +32,10 @@ class Keys:
             return original[KEY_PROPERTY]
         key = f"{instancer}/{original.name_full}" if instancer else original.name
         if instancer or key in self._given:
-            number = 0
+            number = self._next.get(key, 0)
             while f"{key}#{number}" in self._given:
                 number += 1
+            self._next[key] = number + 1
             key = f"{key}#{number}"
         self._given.add(key)
         return key

@@ -2,6 +2,7 @@
 import math
 from array import array
 
+import bmesh
 import bpy
 from mathutils import Matrix
 
@@ -10,6 +11,7 @@ from scene_ops.lambert_materials import UV_ATTRIBUTE
 
 LIGHTMAP_NAMES = ("Lightmap", "UV2", "lightmap")  # as src/bake/targets.cpp looks for them
 MARGIN = 3  # texels between charts
+MANY = 20000  # polygons: Blender's packing with gaps takes minutes then
 LITTLE = 0.2  # charts that fill less of the square are mostly gaps
 
 
@@ -50,8 +52,9 @@ def unwrap(bench, mesh, matrix, side):
     placed.uv_layers.new(name="unwrap")
     ob = bpy.data.objects.new("rnmbake unwrap", placed)
     with bench.holding(ob):
-        for gap in (MARGIN / side, MARGIN / side / 8, 0):
-            smart_project(gap)
+        gaps = (MARGIN / side, MARGIN / side / 8, 0)
+        for gap in gaps if len(placed.polygons) < MANY else gaps[-1:]:
+            smart_project(placed, gap)
             uv = read_uv(placed.uv_layers[0])
             if filled(placed, uv) >= LITTLE:
                 break
@@ -60,15 +63,32 @@ def unwrap(bench, mesh, matrix, side):
     return uv
 
 
-def smart_project(gap):
+def smart_project(mesh, gap):
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.reveal(select=False)
-    bpy.ops.mesh.select_all(action="SELECT")
+    if select_solid_faces(mesh):
+        project(gap)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def select_solid_faces(mesh):
+    """Selects the faces that have a normal; whether there are any. Among others alone 3.4 looks for a direction
+    for ever: rounding may give a face of three points on a line an area, but no normal."""
+    bpy.ops.mesh.select_mode(type="FACE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    edited = bmesh.from_edit_mesh(mesh)
+    solid = [face for face in edited.faces if face.normal.length > 0.5]
+    for face in solid:
+        face.select_set(True)
+    bmesh.update_edit_mesh(mesh)
+    return bool(solid)
+
+
+def project(gap):
     options = {"angle_limit": math.radians(66), "island_margin": gap, "scale_to_bounds": False}
     if "margin_method" in bpy.ops.uv.smart_project.get_rna_type().properties:  # >= 3.6
         options["margin_method"] = "FRACTION"
     bpy.ops.uv.smart_project(**options)
-    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def filled(mesh, uv):

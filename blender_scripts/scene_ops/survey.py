@@ -69,6 +69,9 @@ def prepare_render(scene):
         scene.camera = camera
 
 
+FACELESS = ("VOLUME", "CURVES", "POINTCLOUD")  # objects that have no lightmap but may glow
+
+
 class Surveyor:
     """Walks a render depsgraph once and keeps strings and numbers only: nothing of Blender's outlives a step."""
 
@@ -81,8 +84,12 @@ class Surveyor:
 
     def visit(self, depsgraph):
         for instance in depsgraph.object_instances:
-            if instance.show_self and instance.object.type == "LIGHT":
+            if not instance.show_self:
+                continue
+            if instance.object.type == "LIGHT":
                 self.lights.append(describe_light(instance.object, instance.matrix_world))
+            elif instance.object.type in FACELESS:
+                self.material_names.update(slot_names(instance.object))
         for instance in shown_surfaces(depsgraph):
             self.add_surface(instance, instance.object)
 
@@ -93,7 +100,7 @@ class Surveyor:
     def add_surface(self, instance, ob):
         original = ob.original
         self.task.progress("evaluate", original.name, len(self.objects))
-        slots = [material_name(slot.material) for slot in ob.material_slots]
+        slots = slot_names(ob)
         self.material_names.update(name for name in slots if name)
         matrix = [value for row in instance.matrix_world for value in row]
         if not all(map(math.isfinite, matrix)):
@@ -110,6 +117,10 @@ class Surveyor:
             "light_group": light_group(original),
             "visible_to_camera": bool(ob.visible_camera),
         })
+
+
+def slot_names(ob):
+    return [material_name(slot.material) for slot in ob.material_slots]
 
 
 def material_name(material):

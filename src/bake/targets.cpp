@@ -1,6 +1,7 @@
 #include "bake/targets.h"
 
 #include "base/error.h"
+#include "scene/flat_triangle.h"
 #include "scene/loose_parts.h"
 
 #include <algorithm>
@@ -115,14 +116,27 @@ Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const
   return sum;
 }
 
-int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
-  const auto rounded_up = [](double side) { return static_cast<int>(std::ceil(side / 4 - 1e-6)) * 4; };
+bool has_surface(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Mat44& to_world) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
+    return !triangle_shape(mesh, triangle, to_world).flat();
+  });
+}
+
+int wanted_resolution(const ObjectSettings& settings, const Areas& areas) {
+  const double most = 1 << 30;
+  const auto rounded_up = [most](double side) {
+    return static_cast<int>(std::ceil(std::min(side, most) / 4 - 1e-6)) * 4;
+  };
   if (settings.texels_per_unit <= 0) return rounded_up(settings.resolution);
-  const double wanted =
-      areas.uv > 0 ? settings.texels_per_unit * std::sqrt(areas.world / areas.uv) : settings.min_resolution;
-  const int lowest = rounded_up(settings.min_resolution);
-  const int highest = std::max(lowest, settings.max_resolution / 4 * 4);
-  return std::clamp(rounded_up(std::min(wanted, double(highest))), lowest, highest);
+  if (!(areas.uv > 0)) return rounded_up(settings.min_resolution);
+  return rounded_up(settings.texels_per_unit * std::sqrt(areas.world / areas.uv));
+}
+
+int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
+  const int wanted = wanted_resolution(settings, areas);
+  if (settings.texels_per_unit <= 0) return wanted;
+  const int lowest = (settings.min_resolution + 3) / 4 * 4;
+  return std::clamp(wanted, lowest, std::max(lowest, settings.max_resolution / 4 * 4));
 }
 
 std::vector<std::string> glowing_materials(const Survey& survey, std::size_t object,

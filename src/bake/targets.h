@@ -4,6 +4,7 @@
 #include "base/math.h"
 #include "config/bake_settings.h"
 #include "scene/survey.h"
+#include "scene/uv_report.h"
 
 #include <cstdint>
 #include <memory>
@@ -36,6 +37,13 @@ struct Areas {
 [[nodiscard]] Areas areas(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
                           const std::vector<Vec2>& uv, const Mat44& to_world);
 
+/// Whether any of the triangles is more than a line or a point.
+[[nodiscard]] bool has_surface(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+                               const Mat44& to_world);
+
+/// Side that texels_per_unit asks for, whatever the limits; the resolution without it.
+[[nodiscard]] int wanted_resolution(const ObjectSettings& settings, const Areas& areas);
+
 /// Side of the square lightmap: a multiple of 4 within the limits.
 [[nodiscard]] int choose_resolution(const ObjectSettings& settings, const Areas& areas);
 
@@ -63,6 +71,8 @@ struct Target {
   bool unwrapped = false;
   bool flip_green = false;  // basis y points along falling v, for normal maps with Y down
   int width = 0, height = 0;
+  int wanted_side = 0;               // texels_per_unit's, before max_resolution
+  UvReport uv_report;                // at that size
   std::vector<std::string> glowing;  // materials that emit, where most of the surface does
 };
 

@@ -36,7 +36,8 @@ int bake(const ResolvedConfig& config) {
   Workspace workspace(config, blender);
   prepare_output(config.globals.output);
   const SurveyedScene scene = survey_scene(workspace);
-  const TargetList list = make_targets(workspace, scene.survey);
+  check_light(config, scene.survey);
+  const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(workspace, {"bake", bases}, scene.survey, list.targets);
   return report(run_bake(workspace, {scene.survey, list, bases, scene.blend, scene.own, std::move(earlier)}),
                 config.globals.output);

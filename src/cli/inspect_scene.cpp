@@ -1,6 +1,7 @@
 #include "cli/inspect_scene.h"
 
 #include "bake/targets.h"
+#include "bake/uv_problems.h"
 #include "base/error.h"
 
 #include <cstdint>
@@ -21,19 +22,6 @@ const UvLayer& layer_of(const Mesh& mesh, int layer) {
   return mesh.uv_layers[static_cast<std::size_t>(layer)];
 }
 
-std::vector<std::string> uv_problems(const UvReport& uv) {
-  std::vector<std::string> problems;
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) problems.push_back(fmt::format("{} {}", count, what));
-  };
-  add(uv.overlap_texels, "texels overlap");
-  add(static_cast<std::size_t>(uv.outside_texels + 0.5), "texels outside [0,1]");
-  add(uv.degenerate_uv, "triangles without UV area");
-  add(uv.degenerate_world, "triangles without area");
-  add(uv.mirrored_charts, "mirrored charts");
-  return problems;
-}
-
 void look_at_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
   const Mesh& mesh = *inspected.mesh;
   const SceneObject& object = *inspected.object;
@@ -49,10 +37,12 @@ void look_at_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
   }
   const UvLayer& layer = layer_of(mesh, *choice.layer);
   inspected.lightmap_layer = layer.name;
-  inspected.resolution =
-      choose_resolution(settings, areas(mesh, all_triangles(mesh), layer.uv, object.to_world));
+  const Areas sizes = areas(mesh, all_triangles(mesh), layer.uv, object.to_world);
+  inspected.resolution = choose_resolution(settings, sizes);
   inspected.uv = report_uv(mesh, layer.uv, object.to_world, inspected.resolution, inspected.resolution);
-  inspected.problems = uv_problems(*inspected.uv);
+  const int wanted = wanted_resolution(settings, sizes);
+  for (const UvProblem& problem : uv_problems(*inspected.uv, inspected.resolution, wanted))
+    inspected.problems.push_back(spoken(problem));
 }
 
 InspectedObject inspect_object(const Survey& survey, const SceneObject& object,
@@ -60,8 +50,11 @@ InspectedObject inspect_object(const Survey& survey, const SceneObject& object,
   InspectedObject inspected;
   inspected.object = &object;
   inspected.mesh = &survey.mesh_of(object);
-  if (!config.selects(object.name, object.key)) inspected.not_baked = "not selected";
-  if (inspected.mesh->triangles() == 0) inspected.not_baked = "no faces";
+  if (!config.selects(object.name, object.key)) inspected.not_baked = not_selected;
+  if (inspected.mesh->triangles() == 0)
+    inspected.not_baked = "no faces";
+  else if (!has_surface(*inspected.mesh, all_triangles(*inspected.mesh), object.to_world))
+    inspected.not_baked = "no area";
   if (!inspected.not_baked.empty()) return inspected;
   try {
     const ObjectSettings settings = config.for_object(object.name, object.key);

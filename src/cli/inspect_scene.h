@@ -12,6 +12,8 @@
 
 namespace rnmbake {
 
+inline constexpr const char* not_selected = "not selected";  // InspectedObject::not_baked
+
 struct InspectedObject {
   const SceneObject* object = nullptr;  // in the survey
   const Mesh* mesh = nullptr;

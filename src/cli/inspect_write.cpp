@@ -1,9 +1,12 @@
 #include "cli/inspect_write.h"
 
 #include "base/error.h"
+#include "pipeline/name_list.h"
+#include "scene/lighting.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <ostream>
 
 #include <spdlog/fmt/ranges.h>
@@ -62,6 +65,41 @@ Table::Row row_of(const InspectedObject& object) {
   return row;
 }
 
+/// Instances of one object by one instancer that are alike become one row; so do those that are not selected.
+std::vector<Table::Row> grouped_rows(const std::vector<InspectedObject>& objects) {
+  struct Group {
+    Table::Row row;
+    std::size_t count = 0;
+  };
+  std::vector<Group> groups;
+  std::map<Table::Row, std::size_t> known;
+  for (const InspectedObject& object : objects) {
+    if (object.not_baked == not_selected) continue;
+    const Table::Row row = row_of(object);
+    Table::Row alike = row;
+    const SceneObject& it = *object.object;
+    if (!it.instancer.empty()) alike.front() = it.instancer + "/" + it.name + "#*";
+    const auto [entry, is_new] = known.try_emplace(alike, groups.size());
+    if (is_new) groups.push_back({row, 0});
+    Group& group = groups[entry->second];
+    if (++group.count == 2) group.row = alike;
+  }
+  std::vector<Table::Row> rows;
+  for (Group& group : groups) {
+    if (group.count > 1) group.row.front() += fmt::format(" ({})", group.count);
+    rows.push_back(std::move(group.row));
+  }
+  return rows;
+}
+
+void write_not_selected(const std::vector<InspectedObject>& objects, std::ostream& out) {
+  std::vector<std::string> keys;
+  for (const InspectedObject& object : objects) {
+    if (object.not_baked == not_selected) keys.push_back(object.object->key);
+  }
+  if (!keys.empty()) out << fmt::format("\nnot selected ({}): {}\n", keys.size(), name_list(keys, 8));
+}
+
 void write_lights(const Survey& survey, std::ostream& out) {
   for (const LightInfo& light : survey.lights) {
     out << fmt::format("light     {} ({}, {:g})", light.name, light.type, light.energy);
@@ -71,6 +109,7 @@ void write_lights(const Survey& survey, std::ostream& out) {
   out << fmt::format("world     {}", survey.world);
   if (survey.world != "none") out << fmt::format(" ({:g})", survey.world_strength);
   out << '\n';
+  if (!may_be_lit(survey)) out << "nothing lights this scene: bake needs --allow-dark\n";
 }
 
 json uv_json(const UvReport& uv) {
@@ -80,6 +119,7 @@ json uv_json(const UvReport& uv) {
       {"covered_texels", uv.covered_texels},
       {"overlap_texels", uv.overlap_texels},
       {"outside_texels", uv.outside_texels},
+      {"udim_triangles", uv.tile_triangles},
       {"outside_corners", uv.outside_corners},
       {"degenerate_uv_triangles", uv.degenerate_uv},
       {"degenerate_triangles", uv.degenerate_world},
@@ -125,8 +165,9 @@ json light_json(const LightInfo& light) {
 void write_inspection(const Survey& survey, const Inspection& inspection, std::ostream& out) {
   Table table;
   table.add({"OBJECT", "TYPE", "TRIANGLES", "UV LAYERS", "LIGHTMAP", "SIZE", "TEXELS/UNIT", "PROBLEMS"});
-  for (const InspectedObject& object : inspection.objects) table.add(row_of(object));
+  for (Table::Row& row : grouped_rows(inspection.objects)) table.add(std::move(row));
   table.write(out);
+  write_not_selected(inspection.objects, out);
   out << '\n';
   write_lights(survey, out);
   for (const MaterialInfo* material : inspection.outside_model) {

@@ -47,6 +47,7 @@ int reference(const ResolvedConfig& config) {
   prepare_output(settings.output);
   const ExportedScene exported = export_scene(workspace);
   const Survey& survey = exported.exchange.survey;
+  check_light(config, survey);
   say_what_is_left_out(exported.exchange);
   const ReferencePlan plan = plan_reference(config, survey.blender_version);
   const TraceScene scene(exported.exchange, plan.blender_version);

@@ -38,6 +38,7 @@ struct SceneSettings {
   std::vector<std::string> objects{"*"};
   std::vector<std::string> exclude;
   bool allow_scripts = false;
+  bool allow_dark = false;  // nothing in the scene gives light
   Materials materials = Materials::full;
 };
 

@@ -181,6 +181,7 @@ std::vector<Setting> make_settings_table() {
       scene("objects", &Scene::objects, "names of the objects to bake; * and ? are wildcards"),
       scene("exclude", &Scene::exclude, "names of objects to leave out; they still cast light and shadow"),
       scene("allow_scripts", &Scene::allow_scripts, "let Python scripts and drivers in the scene file run"),
+      scene("allow_dark", &Scene::allow_dark, "go on with a scene in which nothing gives light"),
       scene("materials", &Scene::materials,
             "lambert replaces every material by its own baked albedo and emission")
           .only({Purpose::bake}),

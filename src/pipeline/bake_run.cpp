@@ -6,6 +6,7 @@
 #include "pipeline/manifest.h"
 #include "pipeline/save_scene.h"
 #include "pipeline/target_facts.h"
+#include "scene/lighting.h"
 
 #include <memory>
 #include <utility>
@@ -66,6 +67,7 @@ class BakeRun {
     BakeOutcome outcome;
     outcome.timings = run_dispatches(workspace_, context, subject_.blend, desk);
     outcome.deliveries = desk.deliveries();
+    if (may_be_lit(subject_.survey)) warn_of_black(list_.targets, outcome.deliveries);
     write_records(outcome);
     return outcome;
   }
@@ -80,6 +82,7 @@ class BakeRun {
       notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, nullptr});
       plan_target(i);
     }
+    lost_.warn();
     group_units(plan_, resolve_dispatch(settings_.bake));
   }
 
@@ -106,7 +109,7 @@ class BakeRun {
     if (!by_receiver()) add_object_units(plan_, i, target, bases_, cycles);
     if (!by_receiver() && !settings_.output.frames) return;
 
-    const auto surface = std::make_shared<const Surface>(surface_of(subject_.survey, target));
+    const auto surface = std::make_shared<const Surface>(surface_of(subject_.survey, target, lost_));
     bool keep_surface = settings_.output.frames;
     if (by_receiver()) {
       std::vector<BasisDirection> bases = bases_;
@@ -136,6 +139,7 @@ class BakeRun {
   Plan plan_;
   std::vector<DeliveryNote> notes_;
   std::vector<HorizonCounts> horizons_;
+  LostDirections lost_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "lightmap/layout.h"
+#include "pipeline/name_list.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,6 +35,15 @@ void warn_about(const std::string& key, const MergeCounts& counts, bool repaired
   }
 }
 
+/// A map of which nothing can be used is no lightmap, and there is nothing to repair it from.
+void refuse_if_nothing_is_a_number(const std::string& key, const MergeCounts& counts) {
+  if (counts.covered_texels == 0 || counts.non_finite < counts.covered_texels) return;
+  fail(ExitCode::tasks_failed,
+       "{}: all of its {} texels are NaN or infinite: look for a lamp, a sky or a material of the scene with "
+       "such a value",
+       key, counts.covered_texels);
+}
+
 std::vector<std::string> write(const OutputSettings& output, const std::string& stem, LayeredImage image) {
   std::vector<std::string> files;
   const auto save = [&](const std::string& name, const LayeredImage& content) {
@@ -57,6 +67,20 @@ std::size_t count_failed(const std::vector<Delivery>& deliveries) {
       [](const Delivery& delivery) { return !delivery || std::holds_alternative<NotDelivered>(*delivery); }));
 }
 
+void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
+    const auto* delivered = deliveries[i] ? std::get_if<Delivered>(&*deliveries[i]) : nullptr;
+    if (delivered != nullptr && delivered->counts.black == delivered->counts.covered_texels)
+      names.push_back(targets[i].key);
+  }
+  if (names.empty()) return;
+  log::warn(
+      "{}: {} of {} lightmaps are all black: are these objects buried, do their faces look away from the "
+      "light, or is it too weak?",
+      name_list(names), names.size(), deliveries.size());
+}
+
 void prepare_output(const OutputSettings& output) {
   if (output.dir.empty())
     fail(ExitCode::usage, "no output folder: pass -o DIR, or set dir in [output] of the project file");
@@ -68,6 +92,7 @@ Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note, c
                            ExtraLayers extra) {
   const MergeOptions options = merge_options(output, note);
   MergedLightmap merged = merge(bakes, options);
+  refuse_if_nothing_is_a_number(note.metadata.object, merged.counts);
   add_extra_layers(std::move(extra), options, merged.image);
   warn_about(note.metadata.object, merged.counts, output.repair);
   LightmapMetadata metadata = note.metadata;

@@ -1,6 +1,7 @@
 // pipeline/deliver_lightmap.h - one target's pictures become its files, whoever made the pictures.
 #pragma once
 
+#include "bake/targets.h"
 #include "config/bake_settings.h"
 #include "image/bakes.h"
 #include "lightmap/extra_layers.h"
@@ -31,6 +32,9 @@ using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
 /// Targets without a lightmap.
 [[nodiscard]] std::size_t count_failed(const std::vector<Delivery>& deliveries);
 
+/// One line for all lightmaps in which no texel got any light.
+void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries);
+
 /// What is known of a target besides its geometry.
 struct DeliveryNote {
   std::string stem;           // of its file names
@@ -44,7 +48,7 @@ struct DeliveryNote {
 void prepare_output(const OutputSettings& output);
 
 /// Merges, writes the header and the files; warns of what had to be mended. `note.metadata` lacks only its
-/// bases. Throws Error(io).
+/// bases. Throws Error(io), and Error(tasks_failed) where no texel holds a number.
 [[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note,
                                          const OutputSettings& output, ExtraLayers extra = {});
 

@@ -81,7 +81,7 @@ ExportedScene export_scene(Workspace& workspace) {
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
          file.string());
   }
-  result.list = make_targets(workspace, result.exchange.survey);
+  result.list = make_targets(workspace.config(), result.exchange.survey);
   keep_unwrapped(result.exchange.survey, result.list.targets);
   return result;
 }

@@ -1,23 +1,30 @@
 #include "pipeline/make_targets.h"
 
+#include "bake/uv_problems.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "pipeline/name_list.h"
 #include "pipeline/unwrap.h"
+#include "scene/lighting.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace rnmbake {
 namespace {
 
 constexpr const char* unwrapped_layer = "Lightmap";
-constexpr double packing_guess = 0.6;       // share of the square that charts usually fill
-constexpr double widest_margin = 1.0 / 16;  // of the square; more would leave small maps no room for charts
+constexpr const char* no_area = "no area";
 
-Uvs layer_uvs(const Mesh& mesh, int layer) {
-  return std::make_shared<const std::vector<Vec2>>(mesh.uv_layers[static_cast<std::size_t>(layer)].uv);
+std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
+  std::vector<std::uint32_t> triangles(mesh.triangles());
+  std::iota(triangles.begin(), triangles.end(), std::uint32_t{0});
+  return triangles;
 }
 
 /// An object that was selected, on its way to becoming targets.
@@ -28,20 +35,47 @@ struct Candidate {
   Uvs uv;
 };
 
+/// One line for each kind of problem that does harm.
+void warn_of_uv_problems(const std::vector<Target>& targets) {
+  struct Group {
+    std::size_t count = 0;
+    std::vector<std::string> names;
+  };
+  std::map<UvProblem::Kind, Group> groups;
+  for (const Target& target : targets) {
+    for (const UvProblem& problem : uv_problems(target.uv_report, target.width, target.wanted_side)) {
+      Group& group = groups[problem.kind];
+      const bool is_size = problem.kind == UvProblem::Kind::capped;
+      group.count = is_size ? std::max(group.count, problem.count) : group.count + problem.count;
+      group.names.push_back(target.key);
+    }
+  }
+  for (const auto& [kind, group] : groups) {
+    const std::string what = spoken({kind, group.count});
+    if (*remedy(kind) != 0)
+      log::warn("{}: {}; {}", name_list(group.names), what, remedy(kind));
+    else
+      log::debug("{}: {}", name_list(group.names), what);
+  }
+}
+
 class TargetMaker {
  public:
-  TargetMaker(Workspace& workspace, const Survey& survey) : workspace_(workspace), survey_(survey) {}
+  TargetMaker(const ResolvedConfig& config, const Survey& survey) : config_(config), survey_(survey) {}
 
   TargetList make() {
     check_patterns();
     for (std::size_t i = 0; i < survey_.objects.size(); ++i) consider(i);
     if (last_error_) throw Error(*last_error_);
+    warn_of_skipped();
     if (candidates_.empty()) {
-      fail(ExitCode::invalid_input, "nothing to bake in {}: none of its {} objects is selected and has faces",
+      fail(ExitCode::invalid_input,
+           "nothing to bake in {}: none of its {} objects is selected and has faces with an area",
            survey_.scene_file, survey_.objects.size());
     }
     unwrap_those_without_uv();
     for (const Candidate& candidate : candidates_) add_targets(candidate);
+    warn_of_uv_problems(list_.targets);
     return std::move(list_);
   }
 
@@ -52,7 +86,7 @@ class TargetMaker {
       names.push_back(object.name);
       names.push_back(object.key);
     }
-    const auto unmatched = unmatched_patterns(workspace_.config(), names);
+    const auto unmatched = unmatched_patterns(config_, names);
     if (unmatched.empty()) return;
     fail(ExitCode::usage, "'{}' ({}) matches no object of {}; rnmbake inspect lists them",
          unmatched.front().pattern, unmatched.front().where, survey_.scene_file);
@@ -61,15 +95,16 @@ class TargetMaker {
   void consider(std::size_t index) {
     const SceneObject& object = survey_.objects[index];
     const Mesh& mesh = survey_.mesh_of(object);
-    if (!workspace_.config().selects(object.name, object.key)) return skip(object, "not selected");
-    if (mesh.triangles() == 0) return skip(object, "no faces");
+    if (!config_.selects(object.name, object.key)) return skip(object.key, "not selected");
+    if (mesh.triangles() == 0) return skip(object.key, "no faces");
+    if (!has_surface(mesh, all_triangles(mesh), object.to_world)) return skip(object.key, no_area);
     try {
       Candidate candidate;
       candidate.object = index;
-      candidate.settings = workspace_.config().for_object(object.name, object.key);
+      candidate.settings = config_.for_object(object.name, object.key);
       candidate.lightmap = choose_lightmap_uv(mesh, candidate.settings, object.key).layer;
       candidate.tangent = choose_tangent_uv(mesh, candidate.settings, object.key);
-      if (candidate.lightmap) candidate.uv = layer_uvs(mesh, *candidate.lightmap);
+      if (candidate.lightmap) candidate.uv = layer_uvs(object.mesh, *candidate.lightmap);
       candidates_.push_back(std::move(candidate));
     } catch (const Error& error) {
       if (last_error_) log::error("{}", last_error_->what());
@@ -77,9 +112,19 @@ class TargetMaker {
     }
   }
 
-  void skip(const SceneObject& object, const char* reason) {
-    list_.skipped.push_back({object.key, reason});
-    log::debug("{}: {}", object.key, reason);
+  void skip(const std::string& key, const char* reason) {
+    list_.skipped.push_back({key, reason});
+    log::debug("{}: {}", key, reason);
+  }
+
+  void warn_of_skipped() const {
+    std::vector<std::string> names;
+    for (const Skipped& skipped : list_.skipped) {
+      if (skipped.reason == no_area) names.push_back(skipped.key);
+    }
+    if (names.empty()) return;
+    log::warn("{}: {} of the objects have faces, but none with an area; they are left out", name_list(names),
+              names.size());
   }
 
   void unwrap_those_without_uv() {
@@ -87,23 +132,21 @@ class TargetMaker {
     std::vector<Candidate*> waiting;
     for (Candidate& candidate : candidates_) {
       if (candidate.uv) continue;
-      requests.push_back({candidate.object, margin_share(candidate)});
+      requests.push_back({candidate.object, candidate.settings});
       waiting.push_back(&candidate);
     }
     if (requests.empty()) return;
-    const std::vector<Uvs> unwrapped = unwrap(workspace_, survey_, requests);
+    const std::vector<Uvs> unwrapped = unwrap(survey_, requests);
     for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i]->uv = unwrapped[i];
   }
 
-  [[nodiscard]] double margin_share(const Candidate& candidate) const {
-    const SceneObject& object = survey_.objects[candidate.object];
-    const Mesh& mesh = survey_.mesh_of(object);
-    std::vector<std::uint32_t> all(mesh.triangles());
-    for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
-    const std::vector<Vec2> none(mesh.loop_vertex.size());
-    const Areas guess{areas(mesh, all, none, object.to_world).world, packing_guess};
-    const double side = choose_resolution(candidate.settings, guess);
-    return std::min(candidate.settings.unwrap_margin / side, widest_margin);
+  /// A layer's UVs; instances of a mesh share them.
+  Uvs layer_uvs(int mesh, int layer) {
+    Uvs& uvs = layers_[{mesh, layer}];
+    const Mesh& of = survey_.meshes[static_cast<std::size_t>(mesh)];
+    if (!uvs)
+      uvs = std::make_shared<const std::vector<Vec2>>(of.uv_layers[static_cast<std::size_t>(layer)].uv);
+    return uvs;
   }
 
   void add_targets(const Candidate& candidate) {
@@ -118,10 +161,16 @@ class TargetMaker {
       target.unwrapped = !candidate.lightmap;
       target.flip_green = candidate.settings.flip_green;
       target.uv_layer = candidate.lightmap ? layer_name(*candidate.lightmap) : unwrapped_layer;
-      target.tangent_uv = candidate.tangent ? layer_uvs(mesh, *candidate.tangent) : candidate.uv;
+      target.tangent_uv = candidate.tangent ? layer_uvs(object.mesh, *candidate.tangent) : candidate.uv;
       target.tangent_layer = candidate.tangent ? layer_name(*candidate.tangent) : target.uv_layer;
-      target.width = target.height =
-          choose_resolution(candidate.settings, areas(mesh, part.triangles, *target.uv, object.to_world));
+      if (!has_surface(mesh, part.triangles, object.to_world)) {
+        skip(target.key, no_area);
+        continue;
+      }
+      const Areas sizes = areas(mesh, part.triangles, *target.uv, object.to_world);
+      target.width = target.height = choose_resolution(candidate.settings, sizes);
+      target.wanted_side = wanted_resolution(candidate.settings, sizes);
+      target.uv_report = report_of(target, part);
       target.glowing = glowing_materials(survey_, candidate.object, part.triangles);
       target.part = std::move(part);
       list_.targets.push_back(std::move(target));
@@ -129,17 +178,40 @@ class TargetMaker {
     }
   }
 
-  Workspace& workspace_;
+  /// Instances that share UVs and size share the report, whose counts are then the same.
+  UvReport report_of(const Target& target, const Part& part) {
+    const SceneObject& object = survey_.objects[target.object];
+    const auto [entry, is_new] =
+        reports_.try_emplace({object.mesh, target.uv.get(), part.name, target.width});
+    if (is_new) {
+      entry->second = report_uv(survey_.mesh_of(object), part.triangles, *target.uv, object.to_world,
+                                target.width, target.height);
+    }
+    return entry->second;
+  }
+
+  const ResolvedConfig& config_;
   const Survey& survey_;
   std::vector<Candidate> candidates_;
+  std::map<std::pair<int, int>, Uvs> layers_;  // by mesh and layer
+  std::map<std::tuple<int, const void*, std::string, int>, UvReport> reports_;
   std::optional<Error> last_error_;
   TargetList list_;
 };
 
 }  // namespace
 
-TargetList make_targets(Workspace& workspace, const Survey& survey) {
-  return TargetMaker(workspace, survey).make();
+void check_light(const ResolvedConfig& config, const Survey& survey) {
+  if (config.globals.scene.allow_dark || may_be_lit(survey)) return;
+  fail(
+      ExitCode::invalid_input,
+      "nothing lights {}: no lamp, no sky and no material that emits is rendered, so all would be black; add "
+      "light, or pass --allow-dark",
+      survey.scene_file);
+}
+
+TargetList make_targets(const ResolvedConfig& config, const Survey& survey) {
+  return TargetMaker(config, survey).make();
 }
 
 }  // namespace rnmbake

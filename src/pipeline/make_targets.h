@@ -3,7 +3,6 @@
 
 #include "bake/targets.h"
 #include "config/resolve.h"
-#include "pipeline/workspace.h"
 #include "scene/survey.h"
 
 #include <string>
@@ -22,9 +21,13 @@ struct TargetList {
   std::vector<Skipped> skipped;
 };
 
-/// Selects objects, splits them, chooses their UVs and sizes; unwraps (one launch of Blender) those that need
-/// it. Every object that cannot be baked is logged, then Error(invalid_input) is thrown for the first of
-/// them. Error(usage) where a pattern of the settings fits no object.
-[[nodiscard]] TargetList make_targets(Workspace& workspace, const Survey& survey);
+/// Selects objects, splits them, chooses their UVs and sizes; unwraps those that need it. What a lightmap
+/// cannot show of its surface is warned of, one line for each kind. Every object that cannot be baked is
+/// logged, then Error(invalid_input) is thrown for the first of them; also where nothing gives light.
+/// Error(usage) where a pattern of the settings fits no object.
+[[nodiscard]] TargetList make_targets(const ResolvedConfig& config, const Survey& survey);
+
+/// Throws Error(invalid_input) where nothing in the scene gives light, unless the settings allow it.
+void check_light(const ResolvedConfig& config, const Survey& survey);
 
 }  // namespace rnmbake

@@ -27,6 +27,14 @@ json to_json(const HorizonCounts& counts, const std::string& treatment) {
           {"triangles_below", counts.triangles_below}};
 }
 
+json uv_json(const Target& target) {
+  const UvReport& report = target.uv_report;
+  return {
+      {"overlap_texels", report.overlap_texels},         {"outside_texels", report.outside_texels},
+      {"udim_triangles", report.tile_triangles},         {"degenerate_uv_triangles", report.degenerate_uv},
+      {"degenerate_triangles", report.degenerate_world}, {"wanted_resolution", target.wanted_side}};
+}
+
 json to_json(const BakeTimings& timings) {
   return {{"launches", timings.launches},
           {"failed_launches", timings.failed_launches},
@@ -45,9 +53,9 @@ void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size
 
 void add_to_object(const ReferenceRecord& reference, const ManifestInput& input, std::size_t index,
                    json& entry) {
-  const std::string& key = input.survey.objects[input.list.targets[index].object].key;
+  const std::string owner = "object '" + input.survey.objects[input.list.targets[index].object].key + "'";
   for (const OutsideModel& outside : reference.outside) {
-    if (outside.owner != "object '" + key + "'") continue;
+    if (outside.owner != owner) continue;
     for (const std::string& what : outside.what) entry["outside_model"].push_back(what);
   }
   if (entry["status"] != "baked") return;
@@ -76,6 +84,7 @@ json describe_object(const ManifestInput& input, std::size_t index) {
              {"uv_hash", uv_hash(*target.uv)},
              {"mesh_hash", mesh_hash(input.survey.mesh_of(object))},
              {"unwrapped", target.unwrapped},
+             {"uv", uv_json(target)},
              {"tangent_uv_layer", target.tangent_layer},
              {"green", name_of(metadata.green)},
              {"samples", metadata.samples},

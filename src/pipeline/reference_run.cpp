@@ -10,6 +10,7 @@
 #include "pipeline/target_facts.h"
 #include "pipeline/workspace.h"
 #include "process/stop.h"
+#include "scene/lighting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,15 +73,18 @@ class ReferenceRun {
     const double started = steady_clock().now();
     std::map<Kind, std::vector<std::size_t>> groups;
     FileStems stems(subject_.earlier.stems());
+    LostDirections lost;
     for (std::size_t i = 0; i < list_.targets.size(); ++i) {
       const Target& target = list_.targets[i];
-      auto surface = std::make_shared<const Surface>(surface_of(survey(), target));
+      auto surface = std::make_shared<const Surface>(surface_of(survey(), target, lost));
       notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, std::move(surface)});
       const Kind kind{target.flip_green, samples(i), list_.settings[i].seed};
       groups[kind].push_back(i);
       total_ += work(i);
     }
+    lost.warn();
     for (const auto& [kind, targets] : groups) trace(kind, targets);
+    if (may_be_lit(survey())) warn_of_black(list_.targets, outcome_.deliveries);
     record_.wall_seconds = outcome_.wall_seconds = steady_clock().now() - started;
     write_manifest({settings_, survey(), list_, subject_.bases, notes_, outcome_.deliveries, saved,
                     subject_.earlier, record_});
@@ -180,7 +184,13 @@ class ReferenceRun {
     extra.validity = std::move(gathered.validity);
     extra.sh = std::move(gathered.sh);
     if (list_.targets[i].flip_green) flip_y(extra.sh);
-    return deliver_lightmap(bakes, note, settings_.output, std::move(extra));
+    try {
+      return deliver_lightmap(bakes, note, settings_.output, std::move(extra));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::tasks_failed) throw;
+      log::error("{}", error.what());
+      return NotDelivered{error.what()};
+    }
   }
 
   const ReferenceSubject& subject_;

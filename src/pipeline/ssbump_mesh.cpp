@@ -108,7 +108,10 @@ LowSurface low_surface(const Survey& survey, std::size_t index, const std::strin
   target.part.triangles = all_triangles(mesh);
   target.uv = target.tangent_uv = std::make_shared<const std::vector<Vec2>>(layer.uv);
   target.uv_layer = target.tangent_layer = layer.name;
-  return {object.key, surface_of(survey, target)};
+  LostDirections lost;
+  Surface surface = surface_of(survey, target, lost);
+  lost.warn();
+  return {object.key, std::move(surface)};
 }
 
 /// Appends an object's triangles. A mirrored object keeps its front: two corners change places.

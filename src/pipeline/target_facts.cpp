@@ -4,17 +4,30 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "pipeline/name_list.h"
 #include "scene/tangents.h"
 
 namespace rnmbake {
-Surface surface_of(const Survey& survey, const Target& target) {
+
+void LostDirections::add(const Target& target, std::size_t corners) {
+  if (corners == 0) return;
+  corners_ += corners;
+  names_.push_back(fmt::format("{} (UV layer '{}')", target.key, target.tangent_layer));
+}
+
+void LostDirections::warn() const {
+  if (names_.empty()) return;
+  log::warn(
+      "{}: {} corners have no tangent, since their UVs meet in a point or line; the basis is turned at will "
+      "there: unwrap these faces, or name another layer with --tangent-uv",
+      name_list(names_), corners_);
+}
+
+Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost) {
   const SceneObject& object = survey.objects[target.object];
   const Mesh& mesh = survey.mesh_of(object);
   const TangentFrames frames = tangent_frames(mesh, *target.tangent_uv, object.to_world);
-  if (frames.degenerate_corners > 0) {
-    log::info("{}: {} corners of UV layer '{}' have no direction; their tangents are arbitrary", target.key,
-              frames.degenerate_corners, target.tangent_layer);
-  }
+  lost.add(target, frames.degenerate_corners);
   return make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
 }
 

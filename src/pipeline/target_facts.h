@@ -7,13 +7,26 @@
 #include "scene/surface.h"
 #include "scene/survey.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace rnmbake {
 
-/// World-space triangles with the frames of the target's tangent UVs. Logs where those have no direction.
-[[nodiscard]] Surface surface_of(const Survey& survey, const Target& target);
+/// Corners whose UVs say nothing of where the tangent points, over all targets.
+class LostDirections {
+ public:
+  void add(const Target& target, std::size_t corners);
+  /// One line for all of them.
+  void warn() const;
+
+ private:
+  std::size_t corners_ = 0;
+  std::vector<std::string> names_;
+};
+
+/// World-space triangles with the frames of the target's tangent UVs.
+[[nodiscard]] Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost);
 
 [[nodiscard]] Normalize normalize_of(const OutputSettings& output);
 

@@ -1,100 +1,118 @@
 #include "pipeline/unwrap.h"
 
-#include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
+#include "pipeline/workspace.h"
+#include "process/stop.h"
+#include "unwrap/unwrap_mesh.h"
 
+#include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <map>
+#include <memory>
+#include <tuple>
 #include <utility>
 
 namespace rnmbake {
 namespace {
 
-/// Two objects with the same key have the same unwrapping: rotation and place do not matter, scale does.
-using Key = std::pair<int, std::array<long, 7>>;
+constexpr double packing_guess = 0.6;       // share of the square that charts usually fill
+constexpr double widest_margin = 1.0 / 16;  // of the square; more would leave small maps no room for charts
+constexpr int most_packings = 4;            // for one size
 
-Key key_of(const SceneObject& object, double margin) {
-  std::array<long, 7> shape{};
+/// Two objects with the same key have the same unwrapping: rotation and place do not matter, scale does.
+using Shape = std::array<long, 6>;
+using Key = std::tuple<int, Shape, int, int, double, int, int>;
+
+Shape shape_of(const Mat44& to_world) {
+  Shape shape{};
   std::size_t at = 0;
   for (int row = 0; row < 3; ++row) {
     for (int other = row; other < 3; ++other) {
       double dot = 0;
-      for (int axis = 0; axis < 3; ++axis) dot += object.to_world[row][axis] * object.to_world[other][axis];
+      for (int axis = 0; axis < 3; ++axis) dot += to_world[row][axis] * to_world[other][axis];
       shape[at++] = std::lround(dot * 1e4);
     }
   }
-  shape[at] = std::lround(margin * 1e6);
-  return {object.mesh, shape};
+  return shape;
 }
 
-template <typename T>
-void append(std::ofstream& out, const std::vector<T>& values) {
-  out.write(reinterpret_cast<const char*>(values.data()),
-            static_cast<std::streamsize>(values.size() * sizeof(T)));
+Key key_of(const SceneObject& object, const ObjectSettings& settings) {
+  return {object.mesh,
+          shape_of(object.to_world),
+          settings.unwrap_margin,
+          settings.resolution,
+          settings.texels_per_unit,
+          settings.min_resolution,
+          settings.max_resolution};
 }
 
-void write_mesh(std::ofstream& out, const Mesh& mesh, const Mat44& to_world) {
-  std::vector<Vec3> positions;
-  positions.reserve(mesh.positions.size());
-  for (const Vec3& position : mesh.positions) {
-    Vec3d scaled;
-    to_world.multDirMatrix(Vec3d(position), scaled);
-    positions.emplace_back(scaled);
+double world_area(const Mesh& mesh, const Mat44& to_world) {
+  std::vector<std::uint32_t> all(mesh.triangles());
+  for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  return areas(mesh, all, std::vector<Vec2>(mesh.loop_vertex.size()), to_world).world;
+}
+
+void warn_of_narrow_margin(const std::string& key, std::size_t charts, int side, int wanted, double texels) {
+  log::warn(
+      "{}: {} charts leave no room for a margin of {} texels at {} x {}; it is {:.1f}, and light may bleed "
+      "across: raise the resolution, or lower --unwrap-margin",
+      key, charts, wanted, side, side, texels);
+}
+
+/// The size of a lightmap with texels_per_unit depends on the packing, and the margin's share on the size: a
+/// few packings bring them together.
+Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings& settings) {
+  const double world = world_area(mesh, object.to_world);
+  int side = choose_resolution(settings, {world, packing_guess});
+  const Charts charts = make_charts(mesh, object.to_world, side);
+  Unwrapping made;
+  double share = 0;
+  for (int i = 0; i < most_packings; ++i) {
+    share = std::min(double(settings.unwrap_margin) / side, widest_margin);
+    made = unwrap_charts(mesh, charts, share);
+    const int needed = choose_resolution(settings, {world, made.uv_area});
+    if (needed >= side && needed <= 1.25 * side) break;
+    side = needed;
   }
-  append(out, positions);
-  append(out, mesh.loop_vertex);
-  append(out, mesh.polygon_start);
-  append(out, mesh.polygon_size);
-}
-
-Uvs read_uvs(std::ifstream& in, std::size_t loops) {
-  std::vector<Vec2> uv(loops);
-  in.read(reinterpret_cast<char*>(uv.data()), static_cast<std::streamsize>(loops * sizeof(Vec2)));
-  if (!in)
-    fail(ExitCode::tasks_failed, "Blender unwrapped fewer corners than it was given: is the disk full?");
-  return std::make_shared<const std::vector<Vec2>>(std::move(uv));
+  if (made.margin < share)
+    warn_of_narrow_margin(object.key, charts.charts.size(), side, settings.unwrap_margin, made.margin * side);
+  log::debug("{}: {} charts cover {:.0f} % of the square", object.key, charts.charts.size(),
+             100 * made.uv_area);
+  return std::make_shared<const std::vector<Vec2>>(std::move(made.uv));
 }
 
 }  // namespace
 
-std::vector<Uvs> unwrap(Workspace& workspace, const Survey& survey,
-                        const std::vector<UnwrapRequest>& requests) {
-  Launch launch;
-  launch.entry = "unwrap_entry.py";
-  launch.folder = workspace.new_folder("unwrap");
-  launch.request["meshes"] = nlohmann::json::array();
-  std::ofstream out(launch.folder / "unwrap.bin", std::ios::binary);
+std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& requests) {
   std::map<Key, std::size_t> known;
-  std::vector<std::size_t> which;  // [requests] -> meshes sent
-  std::vector<std::size_t> loops;  // [meshes sent]
+  std::vector<std::size_t> which;                // [requests] -> meshes
+  std::vector<const UnwrapRequest*> first_user;  // [meshes]
+  double triangles = 0, done = 0;
   for (const UnwrapRequest& request : requests) {
     const SceneObject& object = survey.objects[request.object];
-    const Mesh& mesh = survey.mesh_of(object);
-    const auto [entry, is_new] = known.try_emplace(key_of(object, request.margin), loops.size());
+    const auto [entry, is_new] = known.try_emplace(key_of(object, request.settings), first_user.size());
     which.push_back(entry->second);
     if (!is_new) continue;
-    loops.push_back(mesh.loop_vertex.size());
-    write_mesh(out, mesh, object.to_world);
-    launch.request["meshes"].push_back({{"label", object.key},
-                                        {"vertices", mesh.positions.size()},
-                                        {"loops", mesh.loop_vertex.size()},
-                                        {"polygons", mesh.polygon_start.size()},
-                                        {"margin", request.margin}});
+    first_user.push_back(&request);
+    triangles += static_cast<double>(survey.mesh_of(object).triangles());
   }
-  out.close();
-  if (!out) fail(ExitCode::io, "cannot write {}: is the disk full?", (launch.folder / "unwrap.bin").string());
-  log::info("unwrapping {} mesh{}", loops.size(), loops.size() == 1 ? "" : "es");
+  log::info("unwrapping {} mesh{}", first_user.size(), first_user.size() == 1 ? "" : "es");
 
-  const auto folder = launch.folder;
-  const auto answer = workspace.run(std::move(launch));
-  std::ifstream in(folder / answer.at("file").get<std::string>(), std::ios::binary);
+  Progress progress("unwrapping", progress_for(log::is_quiet(), log::is_jsonl()));
   std::vector<Uvs> unwrapped;
-  unwrapped.reserve(loops.size());
-  for (const std::size_t count : loops) unwrapped.push_back(read_uvs(in, count));
+  for (const UnwrapRequest* request : first_user) {
+    if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
+    const SceneObject& object = survey.objects[request->object];
+    const Mesh& mesh = survey.mesh_of(object);
+    progress.update(done / triangles, object.key);
+    unwrapped.push_back(unwrap_one(object, mesh, request->settings));
+    done += static_cast<double>(mesh.triangles());
+  }
   std::vector<Uvs> result;
   result.reserve(which.size());
-  for (const std::size_t index : which) result.push_back(unwrapped[index]);
+  for (const std::size_t mesh : which) result.push_back(unwrapped[mesh]);
   return result;
 }
 

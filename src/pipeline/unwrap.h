@@ -1,23 +1,22 @@
-// pipeline/unwrap.h - lightmap UVs for meshes that have none, by Blender.
+// pipeline/unwrap.h - lightmap UVs for the objects that have none.
 #pragma once
 
 #include "bake/targets.h"
-#include "pipeline/workspace.h"
+#include "config/bake_settings.h"
 #include "scene/survey.h"
 
-#include <string>
 #include <vector>
 
 namespace rnmbake {
 
 struct UnwrapRequest {
   std::size_t object = 0;  // index into Survey::objects
-  double margin = 0;       // between charts, as a share of the square's side
+  ObjectSettings settings;
 };
 
-/// One launch unwraps them all; UVs in the order of the requests, one for each loop. Objects that share a
-/// mesh, a scale and a margin share their UVs, so that instances stay instances.
-[[nodiscard]] std::vector<Uvs> unwrap(Workspace& workspace, const Survey& survey,
-                                      const std::vector<UnwrapRequest>& requests);
+/// UVs in the order of the requests, one for each loop. The margin between charts is that of the settings at
+/// the size that the lightmap will have; where it had to be narrowed, that is logged. Objects that share a
+/// mesh, a scale and settings share their UVs, so that instances stay instances. Throws Interrupted.
+[[nodiscard]] std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& requests);
 
 }  // namespace rnmbake

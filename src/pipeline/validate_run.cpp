@@ -79,6 +79,7 @@ class ValidateRun {
         limit_(workspace.settings().bake.bounces),
         limit_matters_(bounces_matter(exported_.exchange, limit_)),
         not_followed_(not_followed(exported_.exchange)) {
+    check_light(workspace.config(), exported_.exchange.survey);
     if (options.split_study) study_ = splittings(exported_);
   }
 

@@ -1,6 +1,7 @@
 #include "scene/uv_report.h"
 
 #include "scene/disjoint_sets.h"
+#include "scene/flat_triangle.h"
 #include "scene/uv_raster.h"
 #include "scene/weld.h"
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace rnmbake {
@@ -25,30 +27,28 @@ double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x);
 }
 
-/// Area against the longest edge: below this a triangle is a line as far as floats can tell.
-bool is_flat(double area, double longest2) {
-  return area <= 1e-7 * longest2;
-}
-
-TriangleAreas areas_of(const Mesh& mesh, const std::vector<Vec2>& corner_uv, const Mat44& to_world,
-                       std::size_t triangle) {
-  const std::size_t first = 3 * triangle;
-  const auto at = [&](std::size_t i) { return Vec3d(mesh.positions[mesh.corner_vertex(first + i)]); };
-  Vec3d ab, ac;
-  to_world.multDirMatrix(at(1) - at(0), ab);
-  to_world.multDirMatrix(at(2) - at(0), ac);
+TriangleAreas areas_of(const Mesh& mesh, std::size_t triangle, const Vec2* uv, const Mat44& to_world) {
+  const TriangleShape shape = triangle_shape(mesh, triangle, to_world);
   TriangleAreas areas;
-  areas.world = 0.5 * ab.cross(ac).length();
-  areas.flat_world = is_flat(areas.world, std::max({ab.length2(), ac.length2(), (ab - ac).length2()}));
-  const Vec2 &a = corner_uv[first], &b = corner_uv[first + 1], &c = corner_uv[first + 2];
-  areas.uv = 0.5 * cross(a, b, c);
-  const double longest2 = std::max({(b - a).length2(), (c - a).length2(), (c - b).length2()});
+  areas.world = shape.area;
+  areas.flat_world = shape.flat();
+  areas.uv = 0.5 * cross(uv[0], uv[1], uv[2]);
+  const double longest2 =
+      std::max({(uv[1] - uv[0]).length2(), (uv[2] - uv[0]).length2(), (uv[2] - uv[1]).length2()});
   areas.flat_uv = is_flat(std::abs(areas.uv), longest2);
   return areas;
 }
 
 bool outside(const Vec2& uv) {
   return uv.x < -border_slack || uv.y < -border_slack || uv.x > 1 + border_slack || uv.y > 1 + border_slack;
+}
+
+/// Wholly within one square of the grid that is not [0,1] x [0,1]: a UDIM tile.
+bool in_another_tile(const Vec2* uv) {
+  const Vec2 middle = (uv[0] + uv[1] + uv[2]) / 3.0F;
+  const Vec2 tile(std::floor(middle.x), std::floor(middle.y));
+  if (tile == Vec2(0, 0)) return false;
+  return !outside(uv[0] - tile) && !outside(uv[1] - tile) && !outside(uv[2] - tile);
 }
 
 /// The part of a polygon with keep(p) >= 0, where keep is affine.
@@ -91,10 +91,12 @@ double outside_area(const std::vector<Vec2>& corner_uv, std::size_t triangle, do
 }
 
 /// Charts join where triangles share a vertex and its UV.
-void count_charts(const Mesh& mesh, const std::vector<Vec2>& corner_uv,
-                  const std::vector<TriangleAreas>& areas, UvReport& report) {
+void count_charts(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+                  const std::vector<Vec2>& corner_uv, const std::vector<TriangleAreas>& areas,
+                  UvReport& report) {
   const std::vector<std::uint32_t> place = weld<3>(corner_uv.size(), [&](std::size_t corner) {
-    return std::array{mesh.corner_vertex(corner), weld_bits(corner_uv[corner].x),
+    const std::size_t of_mesh = 3 * std::size_t(triangles[corner / 3]) + corner % 3;
+    return std::array{mesh.corner_vertex(of_mesh), weld_bits(corner_uv[corner].x),
                       weld_bits(corner_uv[corner].y)};
   });
   DisjointSets places(corner_uv.size());
@@ -155,20 +157,24 @@ void count_texels(const std::vector<Vec2>& corner_uv, int width, int height, UvR
 
 }  // namespace
 
-UvReport report_uv(const Mesh& mesh, const std::vector<Vec2>& uv, const Mat44& to_world, int width,
-                   int height) {
+UvReport report_uv(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const std::vector<Vec2>& uv,
+                   const Mat44& to_world, int width, int height) {
   std::vector<Vec2> corner_uv;
-  corner_uv.reserve(mesh.triangle_loops.size());
-  for (const std::uint32_t loop : mesh.triangle_loops) {
-    corner_uv.push_back(uv[loop]);
+  corner_uv.reserve(3 * triangles.size());
+  for (const std::uint32_t triangle : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner_uv.push_back(uv[mesh.triangle_loops[3 * std::size_t(triangle) + k]]);
+    }
   }
   const double texels = static_cast<double>(width) * height;
   UvReport report;
-  report.triangles = mesh.triangles();
+  report.triangles = triangles.size();
   std::vector<TriangleAreas> areas;
-  for (std::size_t triangle = 0; triangle < mesh.triangles(); ++triangle) {
-    areas.push_back(areas_of(mesh, corner_uv, to_world, triangle));
-    report.outside_texels += texels * outside_area(corner_uv, triangle, areas.back().uv);
+  areas.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    areas.push_back(areas_of(mesh, triangles[i], &corner_uv[3 * i], to_world));
+    report.outside_texels += texels * outside_area(corner_uv, i, areas.back().uv);
+    if (in_another_tile(&corner_uv[3 * i])) ++report.tile_triangles;
   }
   report.outside_corners =
       static_cast<std::size_t>(std::count_if(corner_uv.begin(), corner_uv.end(), outside));
@@ -176,9 +182,16 @@ UvReport report_uv(const Mesh& mesh, const std::vector<Vec2>& uv, const Mat44& t
                                                       [&](const Vec2& p) { return p == corner_uv.front(); });
   count_triangles(areas, report);
   count_texels(corner_uv, width, height, report);
-  count_charts(mesh, corner_uv, areas, report);
+  count_charts(mesh, triangles, corner_uv, areas, report);
   report.density = density_of(areas, texels);
   return report;
+}
+
+UvReport report_uv(const Mesh& mesh, const std::vector<Vec2>& uv, const Mat44& to_world, int width,
+                   int height) {
+  std::vector<std::uint32_t> all(mesh.triangles());
+  std::iota(all.begin(), all.end(), std::uint32_t{0});
+  return report_uv(mesh, all, uv, to_world, width, height);
 }
 
 }  // namespace rnmbake

@@ -5,6 +5,7 @@
 #include "scene/mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace rnmbake {
@@ -24,6 +25,7 @@ struct UvReport {
   std::size_t overlap_texels = 0;   // ... in more than one
   std::size_t outside_corners = 0;  // triangle corners outside [0,1] x [0,1]
   double outside_texels = 0;        // texel areas outside it
+  std::size_t tile_triangles = 0;   // triangles in another whole square of the UV plane: UDIM tiles
 
   std::size_t charts = 0;            // patches that hang together in UV
   std::size_t mirrored_charts = 0;   // their UVs wind against the faces
@@ -38,6 +40,9 @@ struct UvReport {
 };
 
 /// `uv` has one entry for each loop of the mesh; width and height are the lightmap's.
+[[nodiscard]] UvReport report_uv(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+                                 const std::vector<Vec2>& uv, const Mat44& to_world, int width, int height);
+/// Of the whole mesh.
 [[nodiscard]] UvReport report_uv(const Mesh& mesh, const std::vector<Vec2>& uv, const Mat44& to_world,
                                  int width, int height);
 

@@ -2,6 +2,7 @@
 #include "cli/inspect_write.h"
 #include "scene/test_meshes.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -75,6 +76,27 @@ TEST(Inspect, AlignsItsTableInSpiteOfUnicode) {
   EXPECT_EQ(header.find("TYPE") + 1, column.find("MESH"));  // one byte more, one character fewer
   EXPECT_NE(out.str().find("chrome: beyond diffuse and emission: glossy"), std::string::npos);
   EXPECT_EQ(out.str().find("chalk"), std::string::npos);
+}
+
+TEST(Inspect, GroupsInstancesAndWhatIsNotSelected) {
+  Survey survey = small_survey();
+  for (int i = 0; i < 1000; ++i) {
+    SceneObject leaf = survey.objects[0];
+    leaf.name = i < 500 ? "leaf" : "twig";
+    leaf.instancer = "tree";
+    leaf.key = "tree/" + leaf.name + "#" + std::to_string(i % 500);
+    survey.objects.push_back(leaf);
+  }
+  ResolvedConfig config = config_with();
+  config.globals.scene.exclude = {"twig"};
+  const Inspection inspection = inspect_scene(survey, config);
+  std::ostringstream out;
+  write_inspection(survey, inspection, out);
+  const std::string text = out.str();
+  EXPECT_NE(text.find("tree/leaf#* (500)"), std::string::npos) << text;
+  EXPECT_NE(text.find("not selected (500): tree/twig#0, "), std::string::npos) << text;
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 20);
+  EXPECT_EQ(inspection_json(survey, inspection).at("objects").size(), 1003U);
 }
 
 TEST(Inspect, WritesJson) {

@@ -136,6 +136,20 @@ TEST(DeliveryDesk, SaysInTheHeaderThatTexelsWereRepaired) {
   }
 }
 
+TEST(DeliveryDesk, GivesUpAMapWithoutANumberAndLosesNothingElse) {
+  for (const bool repair : {false, true}) {
+    BakeSettings settings;
+    settings.output.repair = repair;
+    Desk d(settings, 2);
+    d.take({0, 1, 2, 3}, std::numeric_limits<float>::quiet_NaN());
+    d.take({4, 5, 6, 7});
+    EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object1.exr"});
+    EXPECT_NE(std::get<NotDelivered>(*d.desk.deliveries()[0]).reason.find("NaN"), std::string::npos);
+    EXPECT_TRUE(std::holds_alternative<Delivered>(*d.desk.deliveries()[1]));
+    EXPECT_EQ(count_failed(d.desk.deliveries()), 1U);
+  }
+}
+
 TEST(DeliveryDesk, DoesNotWriteWhatWasGivenUp) {
   Desk d({}, 2);
   d.take({0, 1});

@@ -12,7 +12,7 @@ import sys
 FLOORS = {
     "base": 0,
     "basis": 1, "image": 1, "scene": 1, "config": 1, "process": 1, "rays": 1,
-    "blender": 2, "bake": 2, "lightmap": 2, "trace": 2, "ssbump": 2, "jobs": 2, "report": 2,
+    "blender": 2, "bake": 2, "unwrap": 2, "lightmap": 2, "trace": 2, "ssbump": 2, "jobs": 2, "report": 2,
     "pipeline": 3,
     "cli": 4,
 }

@@ -30,6 +30,24 @@ class Content(BadInput):
         self.assertTrue(entry["unwrapped"])
         self.assertGreater(entry["coverage"], 0.3)
 
+    def test_meshes_without_area(self):
+        ended = self.bake("no_area.blend", "--save-scene", "never")
+        self.assertEqual(ended.code, OK, ended.err)
+        manifest = self.manifest()
+        self.assertEqual(manifest["skipped"], [{"key": "lines", "reason": "no area"}])
+        self.assertIn("lines: 1 of the objects have faces, but none with an area", ended.err)
+        entry, = manifest["objects"]
+        self.assertEqual((entry["object"], entry["unwrapped"]), ("partly", True))
+        self.assertEqual(entry["uv"]["degenerate_triangles"], 1)
+        self.assertGreater(entry["coverage"], 0.5)
+
+    def test_nothing_gives_light(self):
+        self.assert_refused(self.bake("dark.blend"), INVALID_INPUT, "dark.blend", "--allow-dark")
+        ended = self.bake("dark.blend", "--allow-dark")
+        self.assertEqual(ended.code, OK, ended.err)
+        texels = self.manifest()["objects"][0]["texels"]
+        self.assertEqual(texels["black"], texels["covered"])
+
     def test_nan_vertex(self):
         self.assert_refused(self.bake("nan_vertex.blend"), INVALID_INPUT, "'broken'", "vertex 3")
 

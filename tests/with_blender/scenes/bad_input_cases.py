@@ -60,6 +60,24 @@ def zero_uvs(_folder):
     layer.data.foreach_set("uv", [0.0] * (2 * len(layer.data)))
 
 
+def no_area(_folder):
+    """Meshes without UVs: a square with a line beside it, and one of lines alone, which Blender's own unwrapping
+    (3.4) never leaves: rounding gives its faces an area, but no normal."""
+    points = [(-4.353, 8.131, 3.252), (-4.8385, 8.7379, 2.7665), (-2.4113, 5.7036, 5.1937),
+              (-6.7802, 11.1650, 0.8248), (-3.3822, 6.9173, 4.2228), (-5.3240, 9.3447, 2.2810)]
+    mesh = bpy.data.meshes.new("lines")
+    mesh.from_pydata(points, [], [(0, 1, 2), (3, 4, 5)])
+    link(bpy.data.objects.new("lines", mesh))
+    mesh = bpy.data.meshes.new("partly")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), *points[:3]], [], [(0, 1, 2, 3), (4, 5, 6)])
+    link(bpy.data.objects.new("partly", mesh))
+
+
+def dark(_folder):
+    card("floor")
+    bpy.data.lights["sun"].energy = 0
+
+
 def nan_vertex(_folder):
     card("floor")
     card("broken", 2).data.vertices[3].co.x = float("nan")
@@ -96,7 +114,8 @@ def simulations(folder):
 
 
 def main(folder):
-    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, nan_vertex, names, autorun, driver, simulations):
+    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, no_area, dark, nan_vertex, names, autorun, driver,
+                  simulations):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         sun()
         build(folder)

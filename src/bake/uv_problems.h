@@ -1,0 +1,27 @@
+// bake/uv_problems.h - what keeps a lightmap from showing all of its surface: counts, words, remedies.
+#pragma once
+
+#include "scene/uv_report.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct UvProblem {
+  enum class Kind { overlap, tiles, outside, no_uv_area, no_area, capped, mirrored };
+  Kind kind = Kind::overlap;
+  std::size_t count = 0;  // texels, triangles or charts; of `capped`: the side that texels_per_unit asked for
+};
+
+/// `wanted_side` is what texels_per_unit asks for, `side` what the lightmap has.
+[[nodiscard]] std::vector<UvProblem> uv_problems(const UvReport& report, int side, int wanted_side);
+
+/// "12 texels overlap".
+[[nodiscard]] std::string spoken(const UvProblem& problem);
+
+/// What the problem does to a lightmap, and what mends it; "" for what does no harm.
+[[nodiscard]] const char* remedy(UvProblem::Kind kind);
+
+}  // namespace rnmbake
