@@ -75,7 +75,7 @@ def _displaced(stand, ob, mesh):
     """Where Cycles puts the vertices, in the object's own space."""
     colors = mesh.color_attributes.new(ATTRIBUTE, "FLOAT_COLOR", "CORNER")
     mesh.color_attributes.active_color = colors
-    stand.scene.render.bake.target = "VERTEX_COLORS"  # Cycles reads it beside what the operator says
+    stand.scene.cycles.samples = 1  # Cycles adds positions up
     with _bare(ob, mesh), stand.holding(ob):
         outcome = bpy.ops.object.bake(type="POSITION", target="VERTEX_COLORS", save_mode="INTERNAL")
         if outcome != {"FINISHED"}:

@@ -13,10 +13,10 @@ from array import array
 import bpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "../../../blender_scripts")]
+sys.path.insert(0, HERE)
 
-from scene_ops import cycles, neutral, receivers  # noqa: E402
 from state_cases import build, extremes, owners, properties  # noqa: E402
+from scene_ops import cycles, neutral, receivers  # noqa: E402
 
 SIDE = 8
 TILTED = [0.8164966, 0, 0.5773503]  # the first basis vector
