@@ -96,18 +96,24 @@ class Scripts(BadInput):
         self.assertTrue(marker.exists())
 
     def test_simulations_write_nothing(self):
+        self.remove_simulated()
         self.assert_refused(self.bake("simulations.blend"), INVALID_INPUT, "'cloth'", "--allow-scripts")
         self.assertEqual(self.simulated(), [])
 
     def test_simulations_run_when_trusted(self):
-        self.addCleanup(lambda: [shutil.rmtree(path) for path in self.simulated()])
+        self.remove_simulated()
+        self.addCleanup(self.remove_simulated)
         ended = self.bake("simulations.blend", "--allow-scripts", "--objects", "floor")
         self.assertEqual(ended.code, OK, ended.err)
-        self.assertIn("blendcache_simulations", [path.name for path in self.simulated()])
+        self.assertIn("simulation_was_here", [path.name for path in self.simulated()])
 
     def simulated(self):
-        places = [self.scenes / name for name in ("blendcache_simulations", "script_was_here")]
+        places = [self.scenes / name for name in ("blendcache_simulations", "simulation_was_here")]
         return [path for path in places if path.exists()]
+
+    def remove_simulated(self):
+        for path in self.simulated():
+            shutil.rmtree(path)
 
     def test_scripted_driver(self):
         self.assert_refused(self.bake("driver.blend"), INVALID_INPUT, "'driven'", "--allow-scripts")

@@ -102,13 +102,17 @@ def driver(_folder):
 
 
 def simulations(folder):
-    """Written when the file is opened: the cloth's cache beside it, the fluid's where it says."""
+    """Written when the file is opened: the fluid's cache, where it says; in later frames the cloth's, beside it."""
     card("floor")
     cloth = card("cloth").modifiers.new("cloth", "CLOTH")
-    domain = card("domain").modifiers.new("fluid", "FLUID")
+    bpy.ops.mesh.primitive_cube_add(location=(0, 0, 3))
+    bpy.context.object.name = "domain"
+    domain = bpy.context.object.modifiers.new("fluid", "FLUID")
     domain.fluid_type, domain.show_viewport = "DOMAIN", False
-    domain.domain_settings.cache_directory = os.path.join(folder, MARKER)
+    domain.domain_settings.cache_directory = os.path.join(folder, "simulation_was_here")
     domain.domain_settings.resolution_max = 8
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "simulations.blend"))  # a disk cache lies beside a file
     cloth.point_cache.use_disk_cache = True
     domain.show_viewport = True
 
