@@ -20,10 +20,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string purpose_of(const Launch& launch) {
   static const std::map<std::string, std::string> purposes = {
-      {"survey_entry.py", "reading the scene"},      {"export_entry.py", "writing down the scene"},
-      {"lambert_entry.py", "albedo and emission"},   {"unwrap_entry.py", "unwrapping"},
-      {"save_uvs_entry.py", "saving the scene"},     {"render_entry.py", "Cycles renders"},
-      {"height_map_entry.py", "baking the heights"},
+      {"survey_entry.py", "reading the scene"},    {"export_entry.py", "writing down the scene"},
+      {"lambert_entry.py", "albedo and emission"}, {"save_uvs_entry.py", "saving the scene"},
+      {"render_entry.py", "Cycles renders"},       {"height_map_entry.py", "baking the heights"},
   };
   const auto found = purposes.find(launch.entry);
   return found != purposes.end() ? found->second : launch.entry;

@@ -119,21 +119,30 @@ TEST(CheckLight, RefusesADarkSceneUnlessAskedFor) {
   EXPECT_NO_THROW(check_light(config, survey));
 }
 
+LightInfo lamp(double energy, const std::array<double, 3>& color,
+               const std::vector<std::string>& outside_model = {}) {
+  LightInfo light;
+  light.energy = energy;
+  light.color = color;
+  light.outside_model = outside_model;
+  return light;
+}
+
 TEST(MayBeLit, IsFalseOnlyWhereNothingCanGiveLight) {
   Survey dark;
   dark.world = "none";
   EXPECT_FALSE(may_be_lit(dark));
   dark.materials["wall"] = {"wall", false, false, {"glossy"}};
-  dark.lights.push_back({"off", "POINT", 0, {1, 1, 1}, "", {}, {}, {}});
-  dark.lights.push_back({"black", "POINT", 1, {0, 0, 0}, "", {}, {}, {}});
-  dark.lights.push_back({"portal", "AREA", 1, {1, 1, 1}, "", {}, {}, {"portal"}});
+  dark.lights.push_back(lamp(0, {1, 1, 1}));
+  dark.lights.push_back(lamp(1, {0, 0, 0}));
+  dark.lights.push_back(lamp(1, {1, 1, 1}, {"portal"}));
   EXPECT_FALSE(may_be_lit(dark));
 
   Survey lit = dark;
-  lit.lights.push_back({"sun", "SUN", 1, {1, 0, 0}, "", {}, {}, {}});
+  lit.lights.push_back(lamp(1, {1, 0, 0}));
   EXPECT_TRUE(may_be_lit(lit));
   lit = dark;
-  lit.lights.push_back({"nodes", "POINT", 0, {1, 1, 1}, "", {}, {}, {"node tree"}});
+  lit.lights.push_back(lamp(0, {1, 1, 1}, {"node tree"}));
   EXPECT_TRUE(may_be_lit(lit));
   lit = dark;
   lit.materials["glow"] = {"glow", false, true, {}};
