@@ -45,7 +45,7 @@ class FakeBlender : public Blender {
       const std::lock_guard lock(mutex_);
       launches.push_back(baked);
     }
-    on_progress({"bake", "atlas 1", 1, 2, {}});
+    on_progress({"bake", "atlas 1", 1, 2, 0, 0, ""});
     if (auto failure = fault(baked)) return *failure;
     for (const auto& atlas : launch.request.at("atlases")) write_pixels(launch.folder, atlas);
     Finished finished;
