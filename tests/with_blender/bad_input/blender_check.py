@@ -2,10 +2,11 @@
 import os
 from pathlib import Path
 import signal
+import subprocess
 import time
 import unittest
 
-from harness import (ENVIRONMENT, INTERRUPTED, OK, TASKS_FAILED, BadInput, children_of, files_in, wait_for)
+from harness import (ENVIRONMENT, INTERRUPTED, IO, OK, TASKS_FAILED, BadInput, children_of, files_in, wait_for)
 
 # The wall takes minutes: long enough to be stopped in the middle. Flags would win over its override.
 SLOW = """
@@ -94,8 +95,19 @@ class Failing(BadInput):
         self.assert_others_delivered(ended, "memory")
 
     def test_hang(self):
-        ended = self.bake_with(offended("sleep 1000"), "--bases", "flat", "--timeout", "8")
-        self.assert_others_delivered(ended, "8 s", "--timeout")
+        """Busily. The real Blender beside it may take its time to start: there is progress in that."""
+        begins = """echo '{"phase": "bake", "what": "atlas 1 of 1"}' > "$(dirname "$REQUEST")/progress.jsonl" """
+        ended = self.bake_with(offended(begins + "; while :; do :; done"), "--bases", "flat", "--timeout", "8")
+        self.assert_others_delivered(ended, "8 s", "at bake atlas 1 of 1", "--timeout")
+
+    def test_hang_before_the_bake(self):
+        """Whatever is baked, the scene must be opened first: nothing is learnt from halves."""
+        script = 'if [[ "$*" == *bake_entry.py* ]]; then echo x >> "$TMPDIR/../../../launches"; sleep 1000; fi\n'
+        ended = self.bake_with(script + 'exec "$BLENDER" "$@"\n', "--bases", "flat", "--timeout", "8")
+        self.assertEqual(ended.code, TASKS_FAILED, ended.err)
+        self.assertEqual(len(ended.errors), 3, ended.err)
+        self.assertIn("at start-up", ended.errors[0])
+        self.assertEqual((self.temporary / "launches").read_text(), "x\n")
 
     def test_no_result(self):
         ended = self.bake_with(offended("exit 0"), "--bases", "flat")
@@ -116,6 +128,28 @@ class Failing(BadInput):
                           "--objects", "floor", "--bases", "flat")
         self.assertEqual(ended.code, OK, ended.err)
         self.assertEqual(ended.errors, [])
+
+
+class FullDisk(BadInput):
+    """A small disk under TMPDIR: wherever the room ends, it is named, and nothing is tried again."""
+
+    def small_disk(self, kibibytes):
+        mount = ["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "none", str(self.temporary)]
+        if subprocess.run(mount, stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("SKIPPED: a small tmpfs needs root")
+        self.addCleanup(subprocess.run, ["umount", str(self.temporary)], check=True)
+
+    def bake_without_room_for(self, entry, *flags):
+        script = f'[[ "$*" == *{entry}* ]] && cat /dev/zero > "$TMPDIR/fill" 2>/dev/null\nexec "$BLENDER" "$@"\n'
+        return self.bake("good.blend", "--blender", self.fake_blender(script), *flags)
+
+    def test_every_launch(self):
+        self.small_disk(32768)
+        for entry, flags in (("survey_entry.py", ()), ("lambert_entry.py", ("--materials", "lambert")),
+                             ("unwrap_entry.py", ("--unwrap", "always")), ("bake_entry.py", ())):
+            with self.subTest(entry=entry):
+                ended = self.bake_without_room_for(entry, *flags)
+                self.assert_refused(ended, IO, "disk", "full", str(self.temporary))
 
 
 class Stopped(BadInput):
@@ -157,7 +191,9 @@ class Stopped(BadInput):
         self.assertTrue(wait_for(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in below), 10),
                         "Blender lives on")
         self.assert_only_finished_ones()
+        self.assertTrue(files_in(self.temporary), "a killed run cannot tidy up")
         self.assert_rerun_works()
+        self.assert_tidy()
 
     def assert_only_finished_ones(self):
         self.assertEqual([name for name in files_in(self.out) if not name.startswith(".")],
