@@ -146,7 +146,7 @@ class FullDisk(BadInput):
     def test_every_launch(self):
         self.small_disk(32768)
         for entry, flags in (("survey_entry.py", ()), ("lambert_entry.py", ("--materials", "lambert")),
-                             ("unwrap_entry.py", ("--unwrap", "always")), ("bake_entry.py", ())):
+                             ("bake_entry.py", ())):
             with self.subTest(entry=entry):
                 ended = self.bake_without_room_for(entry, *flags)
                 self.assert_refused(ended, IO, "disk", "full", str(self.temporary))
