@@ -23,6 +23,22 @@ function(rnm_fuzz_targets)
     target_include_directories(${TARGET} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
     target_link_libraries(${TARGET} PRIVATE scene rnm_warnings)
   endforeach()
+  # What a launch leaves behind; one file of the pipeline room, the rest of which needs Embree.
+  add_executable(launch_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/launch_fuzz.cpp
+                                              ${CMAKE_SOURCE_DIR}/src/pipeline/launch_answer.cpp)
+  target_link_options(launch_fuzz PRIVATE -fsanitize=fuzzer)
+  add_executable(launch_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/launch_seeds.cpp)
+  foreach(TARGET launch_fuzz launch_seeds)
+    target_include_directories(${TARGET} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    target_link_libraries(${TARGET} PRIVATE blender scene rnm_warnings)
+  endforeach()
+  # Project files, and basis files, whose reader stands in the cli room.
+  add_executable(project_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_fuzz.cpp
+                                               ${CMAKE_SOURCE_DIR}/src/cli/basis_file.cpp)
+  target_link_options(project_fuzz PRIVATE -fsanitize=fuzzer)
+  target_link_libraries(project_fuzz PRIVATE config basis tomlplusplus::tomlplusplus rnm_warnings)
+  add_executable(project_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_seeds.cpp)
+  target_link_libraries(project_seeds PRIVATE config rnm_warnings)
   # Flags and pictures; the libraries that read pictures are the system's, without sanitizers.
   add_executable(ssbump_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/ssbump_fuzz.cpp)
   target_link_options(ssbump_fuzz PRIVATE -fsanitize=fuzzer)

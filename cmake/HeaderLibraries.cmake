@@ -1,4 +1,4 @@
-# Header-only libraries behind one name each.
+# Libraries whose packages differ in what they ship, behind one name each.
 add_library(json INTERFACE)
 find_package(nlohmann_json QUIET)
 if(nlohmann_json_FOUND)
@@ -11,6 +11,12 @@ endif()
 add_library(cli11 INTERFACE)
 find_path(RNMBAKE_CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 target_include_directories(cli11 SYSTEM INTERFACE ${RNMBAKE_CLI11_INCLUDE})
+
+add_library(zstd INTERFACE)
+find_path(RNMBAKE_ZSTD_INCLUDE zstd.h REQUIRED)
+find_library(RNMBAKE_ZSTD_LIBRARY zstd REQUIRED)
+target_include_directories(zstd SYSTEM INTERFACE ${RNMBAKE_ZSTD_INCLUDE})
+target_link_libraries(zstd INTERFACE ${RNMBAKE_ZSTD_LIBRARY})
 
 add_library(xxhash INTERFACE) # compiled in through XXH_INLINE_ALL
 find_path(RNMBAKE_XXHASH_INCLUDE xxhash.h REQUIRED)

@@ -195,8 +195,10 @@ FloatImage cut(const std::vector<float>& atlas, int atlas_width, const Placement
 
 std::vector<float> read_pixels(const fs::path& file, const TileSize& size) {
   std::vector<float> pixels(std::size_t(size.width) * size.height * 4);
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) fail(ExitCode::tasks_failed, "Blender left no picture {}", file.string());
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary | std::ios::ate);
+  if (!in.is_open()) fail(ExitCode::tasks_failed, "Blender left no picture {}", file.string());
   const auto bytes = static_cast<std::size_t>(in.tellg());
   if (bytes != pixels.size() * sizeof(float)) {
     fail(ExitCode::tasks_failed, "{} has {} bytes, a picture of {} x {} has {}: is the disk full?",

@@ -8,9 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -117,32 +115,6 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     throw;
   }
   file.commit();
-}
-
-std::string read_text(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) fail(ExitCode::io, "cannot read {}: it is a folder", path.string());
-  errno = 0;
-  const std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(ExitCode::io, "cannot read {}: {}", path.string(), reason(errno));
-  std::ostringstream content;
-  content << stream.rdbuf();
-  if (stream.bad()) fail(ExitCode::io, "cannot read {}: {}", path.string(), reason(errno));
-  return content.str();
-}
-
-std::string read_tail(const fs::path& path, std::size_t bytes) {
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  if (!stream) return "";
-  const auto size = static_cast<std::size_t>(stream.tellg());
-  const std::size_t start = size > bytes ? size - bytes : 0;
-  stream.seekg(static_cast<std::streamoff>(start));
-  std::string text(size - start, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (start == 0) return text;
-  const std::size_t line_end = text.find('\n');
-  return line_end == std::string::npos ? text : text.substr(line_end + 1);
 }
 
 void make_folders(const fs::path& folder) {

@@ -1,5 +1,7 @@
 #include "base/log.h"
 
+#include "base/text.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -86,7 +88,7 @@ std::string json_escaped(std::string_view text) {
       out += c;
     }
   }
-  return out;
+  return valid_utf8(out);
 }
 
 std::string utc_now() {
@@ -130,7 +132,7 @@ std::string format_line(Format format, Level level, std::string_view message, bo
   }
   const bool painted = colour && *its.colour != '\0';
   return fmt::format("{}rnmbake: {}{}{}", painted ? its.colour : "", its.prefix, painted ? "\033[0m" : "",
-                     message);
+                     printable(message, level <= Level::debug));  // tracebacks have lines
 }
 
 void write(Level level, std::string_view message) {
@@ -140,7 +142,7 @@ void write(Level level, std::string_view message) {
 }
 
 void draw_bar(std::string_view text) {
-  state().sink->draw_bar(text);
+  state().sink->draw_bar(printable(text));
 }
 
 }  // namespace rnmbake::log

@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/names.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +90,7 @@ void Progress::show_bar(std::string_view item) {
   const std::string percent = known_ ? fmt::format(" {:3.0f} %", std::floor(share_ * 100)) : "";
   std::string text = fmt::format("{} [{}{}]{}{} {}", title_, std::string(full, '#'),
                                  std::string(cells - full, '.'), percent, eta_text(), item);
-  text = cut_utf8(text, static_cast<std::size_t>(options_.columns));
+  text = cut_utf8(printable(text), static_cast<std::size_t>(options_.columns));
   if (options_.sink) {
     options_.sink(text);
   } else {

@@ -3,6 +3,10 @@
 #include "base/disk.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json.h"
+#include "base/read_file.h"
+#include "base/text.h"
+#include "blender/blend_header.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +24,8 @@ using Kind = LaunchFailure::Kind;
 using EndedBy = ProcessResult::EndedBy;
 
 constexpr std::size_t details_bytes = 4000;
+constexpr std::size_t longest_text = 20000;
+constexpr std::uintmax_t largest_answer = std::uintmax_t{64} << 20;
 
 /// The signal, also where a wrapper script turned it into 128 + signal.
 int signal_of(const ProcessResult& process) {
@@ -33,9 +39,19 @@ int signal_of(const ProcessResult& process) {
 nlohmann::json answer_in(const fs::path& folder, const std::string& nonce) {
   std::error_code error;
   if (!fs::is_regular_file(folder / "result.json", error)) return nullptr;
-  nlohmann::json answer = nlohmann::json::parse(read_text(folder / "result.json"), nullptr, false);
+  nlohmann::json answer = json_or_null(read_text(folder / "result.json", largest_answer));
   const bool ours = answer.is_object() && answer.contains("nonce") && answer["nonce"] == nonce;
   return ours ? answer : nlohmann::json();
+}
+
+/// An exit code of ours, whatever the script says: never the one that means success.
+int refusal_code(const nlohmann::json& refusal) {
+  const auto code = refusal.find("code");
+  const int usual = static_cast<int>(ExitCode::invalid_input);
+  if (code == refusal.end() || !code->is_number_unsigned()) return usual;
+  const auto value = code->get<std::uint64_t>();
+  return value > 0 && value <= static_cast<std::uint64_t>(ExitCode::lock_held) ? static_cast<int>(value)
+                                                                               : usual;
 }
 
 /// Blender's last words, and the crash report that it leaves in its temporary folder.
@@ -78,15 +94,12 @@ std::string one_line(std::string text) {
 
 std::string text_at(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+  const auto* text = found == object.end() ? nullptr : found->get_ptr<const std::string*>();
+  return text == nullptr ? "" : shortened(*text, longest_text);
 }
 
 LaunchFailure refused(const nlohmann::json& refusal) {
-  const auto code = refusal.find("code");
-  const int value = code != refusal.end() && code->is_number_integer()
-                        ? code->get<int>()
-                        : static_cast<int>(ExitCode::invalid_input);
-  LaunchFailure out = failure(Kind::refused, value, one_line(text_at(refusal, "message")));
+  LaunchFailure out = failure(Kind::refused, refusal_code(refusal), one_line(text_at(refusal, "message")));
   out.object = text_at(refusal, "object");
   return out;
 }
@@ -135,6 +148,29 @@ LaunchFailure ended_by_signal(int signal, const std::string& words) {
   return failure(Kind::crashed, signal, fmt::format("Blender crashed ({})", signal_name(signal)), words);
 }
 
+/// The library that Blender was about to read when it printed its last words; else the scene.
+fs::path file_in_work(const Launch& launch, const std::string& words) {
+  static constexpr std::string_view sign = "Read library: ";
+  const std::size_t at = words.rfind(sign);
+  const std::size_t from = at == std::string::npos ? at : words.find('\'', at);
+  const std::size_t to = from == std::string::npos ? from : words.find('\'', from + 1);
+  std::error_code error;
+  fs::path library = to == std::string::npos ? fs::path() : fs::path(words.substr(from + 1, to - from - 1));
+  return fs::is_regular_file(library, error) ? library : *launch.scene;
+}
+
+/// What a Blender fails over in a file that a later one saved is that file's.
+LaunchFailure crash_or_newer_file(const Launch& launch, const BlenderInfo& info, LaunchFailure failed) {
+  if (!launch.scene || failed.kind == Kind::killed || failed.kind == Kind::script) return failed;
+  for (const fs::path& file : {file_in_work(launch, failed.details), *launch.scene}) {
+    const std::string newer = newer_blend(file, info);
+    if (newer.empty()) continue;
+    return failure(Kind::refused, static_cast<int>(ExitCode::environment),
+                   fmt::format("{} ({})", newer, failed.message), failed.details);
+  }
+  return failed;
+}
+
 LaunchFailure without_answer(const Launch& launch, const ProcessResult& process, const std::string& words) {
   const std::string load = load_error(words);
   if (process.exit_code == 1 && launch.scene && !load.empty()) {
@@ -152,15 +188,17 @@ LaunchFailure without_answer(const Launch& launch, const ProcessResult& process,
                  words);
 }
 
-}  // namespace
-
-namespace {
-
-LaunchOutcome judge_end(const Launch& launch, const std::string& nonce, const ProcessResult& process,
-                        const std::string& words) {
-  if (const int signal = signal_of(process); signal != 0) return ended_by_signal(signal, words);
-  nlohmann::json answer = answer_in(launch.folder, nonce);
-  if (answer.is_null()) return without_answer(launch, process, words);
+LaunchOutcome judge_end(const Launch& launch, const BlenderInfo& info, const std::string& nonce,
+                        const ProcessResult& process, const std::string& words) {
+  if (const int signal = signal_of(process); signal != 0)
+    return crash_or_newer_file(launch, info, ended_by_signal(signal, words));
+  nlohmann::json answer;
+  try {
+    answer = answer_in(launch.folder, nonce);
+  } catch (const Error& error) {
+    return failure(Kind::no_result, process.exit_code, error.what(), words);
+  }
+  if (answer.is_null()) return crash_or_newer_file(launch, info, without_answer(launch, process, words));
   if (const auto failed = answer.find("failed"); failed != answer.end()) {
     return failure(Kind::script, process.exit_code,
                    fmt::format("{} failed: {}", launch.entry, one_line(text_at(*failed, "message"))),
@@ -177,11 +215,11 @@ LaunchOutcome judge_end(const Launch& launch, const std::string& nonce, const Pr
 
 }  // namespace
 
-LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
-                    const ProcessResult& process, const LaunchWatch& watch) {
+LaunchOutcome judge(const Launch& launch, const BlenderInfo& info, const LaunchLimits& limits,
+                    const std::string& nonce, const ProcessResult& process, const LaunchWatch& watch) {
   const std::string words = last_words(launch.folder);
   LaunchOutcome outcome = process.ended_by == EndedBy::itself
-                              ? judge_end(launch, nonce, process, words)
+                              ? judge_end(launch, info, nonce, process, words)
                               : LaunchOutcome(ended_by_us(process, limits, words, watch.last()));
   auto* failure = std::get_if<LaunchFailure>(&outcome);
   if (failure != nullptr) failure->phase = watch.last().phase;

@@ -11,7 +11,7 @@ namespace rnmbake {
 inline constexpr std::size_t most_output_bytes = std::size_t{1} << 30;
 
 /// Reads result.json and stdout.log of the launch's folder. `watch`: what was seen while it ran.
-LaunchOutcome judge(const Launch& launch, const LaunchLimits& limits, const std::string& nonce,
-                    const ProcessResult& process, const LaunchWatch& watch);
+LaunchOutcome judge(const Launch& launch, const BlenderInfo& info, const LaunchLimits& limits,
+                    const std::string& nonce, const ProcessResult& process, const LaunchWatch& watch);
 
 }  // namespace rnmbake

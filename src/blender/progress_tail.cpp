@@ -1,14 +1,18 @@
 #include "blender/progress_tail.h"
 
-#include <fstream>
-#include <iterator>
+#include "base/json.h"
+#include "base/read_file.h"
+
+#include <string_view>
 
 namespace rnmbake {
 
 namespace {
 
-std::optional<ProgressEvent> event_in(const std::string& line) {
-  const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
+constexpr std::size_t most_at_once = std::size_t{1} << 20, longest_line = std::size_t{64} << 10;
+
+std::optional<ProgressEvent> event_in(std::string_view line) {
+  const nlohmann::json json = json_or_null(line);
   if (!json.is_object()) return std::nullopt;
   try {
     ProgressEvent event;
@@ -27,17 +31,17 @@ std::optional<ProgressEvent> event_in(const std::string& line) {
 }  // namespace
 
 bool ProgressTail::poll(const std::function<void(const ProgressEvent&)>& on_event) {
-  std::ifstream stream(file_, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(read_));
-  if (!stream) return false;
-  const std::string added{std::istreambuf_iterator<char>(stream), {}};
+  const std::string added = read_part(file_, read_, most_at_once);
   read_ += added.size();
   rest_ += added;
-  for (std::size_t end = rest_.find('\n'); end != std::string::npos; end = rest_.find('\n')) {
-    const auto event = event_in(rest_.substr(0, end));
-    rest_.erase(0, end + 1);
+  std::size_t begin = 0;
+  for (std::size_t end = rest_.find('\n'); end != std::string::npos; end = rest_.find('\n', begin)) {
+    const auto event = event_in(std::string_view(rest_).substr(begin, end - begin));
+    begin = end + 1;
     if (event && on_event) on_event(*event);
   }
+  rest_.erase(0, begin);
+  if (rest_.size() > longest_line) rest_.clear();  // of a line so long, what is left will be no event
   return !added.empty();
 }
 

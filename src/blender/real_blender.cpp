@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "blender/blend_header.h"
 #include "blender/launch_watch.h"
 #include "blender/outcome.h"
 #include "process/run.h"
@@ -44,15 +45,25 @@ void prepare(const Launch& launch, const std::string& nonce) {
   }
 }
 
-std::optional<LaunchFailure> unreadable_scene(const Launch& launch) {
-  std::error_code error;
-  if (!launch.scene || fs::is_regular_file(*launch.scene, error)) return std::nullopt;
+/// What Blender need not be started for: it would crash, or name neither the file nor the cause.
+std::optional<LaunchFailure> unreadable_scene(const Launch& launch, const BlenderInfo& info) {
+  if (!launch.scene) return std::nullopt;
   LaunchFailure failure;
   failure.kind = LaunchFailure::Kind::refused;
-  failure.code = static_cast<int>(ExitCode::io);
-  failure.message = fmt::format("cannot read {}: {}; check the path", launch.scene->string(),
-                                error ? error.message() : "it is not a file");
-  return failure;
+  try {
+    if (!read_blend_header(*launch.scene)) {
+      failure.code = static_cast<int>(ExitCode::invalid_input);
+      failure.message = fmt::format("{}: is no .blend file, it does not begin as Blender's files do",
+                                    launch.scene->string());
+    } else {
+      failure.code = static_cast<int>(ExitCode::environment);
+      failure.message = unreadable_blend(*launch.scene, info);
+    }
+  } catch (const Error& error) {
+    failure.code = static_cast<int>(error.code());
+    failure.message = error.what();
+  }
+  return failure.message.empty() ? std::nullopt : std::optional(failure);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -103,7 +114,7 @@ std::vector<std::pair<std::string, std::optional<std::string>>> private_environm
 LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
                              const Launch& launch, const LaunchLimits& limits,
                              const std::function<void(const ProgressEvent&)>& on_progress) {
-  if (auto failure = unreadable_scene(launch)) return *failure;
+  if (auto failure = unreadable_scene(launch, info)) return *failure;
   const std::string nonce = new_nonce();
   prepare(launch, nonce);
   ProcessOptions options;
@@ -116,7 +127,7 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
   log::debug("starting {}", joined(options.argv));
   LaunchWatch watch(launch.folder, on_progress);
   const ProcessResult process = run_process(options, [&](const ProcessStatus&) { return watch.poll(); });
-  return judge(launch, limits, nonce, process, watch);
+  return judge(launch, info, limits, nonce, process, watch);
 }
 
 RealBlender::RealBlender(BlenderInfo info, const Options& options)

@@ -16,6 +16,7 @@
 #include "cli/render.h"
 #include "cli/ssbump.h"
 #include "cli/validate.h"
+#include "config/variables.h"
 #include "pipeline/workspace.h"
 
 #include <algorithm>
@@ -236,6 +237,7 @@ int parse_and_run(int argc, const char* const* argv) {
   }
   globals.apply();
   refuse_leftovers(app);
+  refuse_unknown_variables(variables_set());
   for (std::size_t i = 0; i < commands().size(); ++i) {
     if (app.got_subcommand(commands()[i].name)) return actions[i]();
   }

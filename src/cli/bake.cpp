@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/bake_run.h"
@@ -21,10 +22,11 @@ int report(const BakeOutcome& outcome, const OutputSettings& output) {
   const std::size_t total = outcome.deliveries.size();
   if (const std::size_t failed = count_failed(outcome.deliveries); failed > 0) {
     // A warning: each of them had its error already.
-    log::warn("{} of {} objects failed; the others are in {}", failed, total, output.dir.string());
+    log::warn("{} of {} failed; what was finished is in {}", failed, counted(total, "object"),
+              output.dir.string());
     return static_cast<int>(ExitCode::tasks_failed);
   }
-  log::info("{} lightmap{} in {}, {:.1f} s", total, total == 1 ? "" : "s", output.dir.string(),
+  log::info("{} in {}, {:.1f} s", counted(total, "lightmap"), output.dir.string(),
             outcome.timings.wall_seconds);
   return static_cast<int>(ExitCode::ok);
 }

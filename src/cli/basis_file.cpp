@@ -1,15 +1,14 @@
 #include "cli/basis_file.h"
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/log.h"
+#include "base/read_file.h"
+#include "config/parse_toml.h"
 
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
 #include <utility>
-
-#include <toml++/toml.h>
 
 namespace rnmbake {
 namespace {
@@ -51,19 +50,10 @@ BasisDirection basis_of(const std::filesystem::path& file, const toml::node& nod
   return {*name, direction_of(file, *table)};
 }
 
-toml::table parse(const std::filesystem::path& file) {
-  try {
-    return toml::parse(read_text(file), file.string());
-  } catch (const toml::parse_error& error) {
-    fail(ExitCode::invalid_input, "{}:{}: not TOML: {}", file.string(), error.source().begin.line,
-         error.description());
-  }
-}
-
 }  // namespace
 
 BasisFile read_basis_file(const std::filesystem::path& file) {
-  const toml::table root = parse(file);
+  const toml::table root = parse_toml(read_text(file, largest_toml), file.string(), ExitCode::invalid_input);
   check_keys(file, root, {"basis"});
   BasisFile result{{file.string(), {}}, {}};
   if (const toml::node* list = root.get("basis"); list != nullptr) {

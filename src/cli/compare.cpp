@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/command_line.h"
 #include "pipeline/compare.h"
 #include "report/thresholds.h"
@@ -52,8 +53,7 @@ void say_what_is_lost(const Report& report) {
   for (const ObjectComparison& object : report.objects) {
     std::size_t lost = 0;
     for (const BasisMetrics& basis : object.bases) lost = std::max(lost, basis.metrics.non_finite);
-    if (lost > 0)
-      log::warn("'{}': left out {} texel{} with NaN or infinity", object.key, lost, lost == 1 ? "" : "s");
+    if (lost > 0) log::warn("'{}': left out {} with NaN or infinity", object.key, counted(lost, "texel"));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/machine.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "blender/find.h"
 #include "blender/probe.h"
@@ -112,7 +113,7 @@ std::string gibibytes(std::uintmax_t bytes) {
 
 void write_table(const Findings& findings, std::ostream& out) {
   const auto line = [&](const char* name, const std::string& value) {
-    out << fmt::format("{:<14}{}\n", name, value);
+    out << printable(fmt::format("{:<14}{}", name, value)) << '\n';
   };
   line("rnmbake", version);
   if (const auto& blender = findings.blender) {

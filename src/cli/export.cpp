@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/settings_flags.h"
 #include "pipeline/export_scene.h"
 #include "pipeline/late_blender.h"
@@ -60,21 +61,21 @@ void write_text(const ExportedScene& exported, const fs::path& file, std::ostrea
   const Exchange& scene = exported.exchange;
   const Survey& survey = scene.survey;
   const auto line = [&](const char* what, const std::string& said) {
-    out << fmt::format("{:<10}{}\n", what, said);
+    out << printable(fmt::format("{:<10}{}", what, said)) << '\n';
   };
   line("file", fmt::format("{} ({:.1f} MB)", file.string(), double(fs::file_size(file)) / 1e6));
-  line("objects",
-       fmt::format("{}, {} triangles; {} would get lightmaps, {} of them unwrapped", survey.objects.size(),
-                   triangles_of(survey), exported.list.targets.size(), unwrapped(exported.list)));
-  line("looks", fmt::format("{}, {} pictures, {} normal maps", scene.looks.size(), scene.pictures.size(),
-                            scene.normal_maps.size()));
+  line("objects", fmt::format("{}, {}; {} would get a lightmap, {} of them unwrapped", survey.objects.size(),
+                              counted(triangles_of(survey), "triangle"), exported.list.targets.size(),
+                              unwrapped(exported.list)));
+  line("looks", fmt::format("{}, {}, {}", scene.looks.size(), counted(scene.pictures.size(), "picture"),
+                            counted(scene.normal_maps.size(), "normal map")));
   line("lights", fmt::format("{}", survey.lights.size()));
   line("world", world_text(scene));
   line("camera", scene.camera ? scene.camera->name : "none");
   if (scene.outside.empty()) return;
   out << "\nOutside the reference's model:\n";
   for (const OutsideModel& outside : scene.outside)
-    out << fmt::format("  {}: {}\n", outside.owner, fmt::join(outside.what, ", "));
+    out << printable(fmt::format("  {}: {}", outside.owner, fmt::join(outside.what, ", "))) << '\n';
 }
 
 json as_json(const ExportedScene& exported, const fs::path& file) {

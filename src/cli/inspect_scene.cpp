@@ -3,6 +3,7 @@
 #include "bake/targets.h"
 #include "bake/uv_problems.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <cstdint>
 #include <numeric>

@@ -1,11 +1,10 @@
 #include "cli/inspect_write.h"
 
-#include "base/error.h"
+#include "base/text.h"
+#include "base/text_table.h"
 #include "pipeline/name_list.h"
 #include "scene/lighting.h"
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <ostream>
 
@@ -16,67 +15,39 @@ namespace {
 
 using nlohmann::json;
 
-/// Columns as wide as their widest cell; the last one is free.
-class Table {
- public:
-  using Row = std::vector<std::string>;
-  void add(Row row) { rows_.push_back(std::move(row)); }
-  void write(std::ostream& out) const {
-    std::vector<std::size_t> widths;
-    for (const Row& row : rows_) {
-      widths.resize(std::max(widths.size(), row.size()));
-      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
-    }
-    for (const Row& row : rows_) {
-      std::string line;
-      for (std::size_t i = 0; i < row.size(); ++i)
-        line += row[i] + std::string(widths[i] - width(row[i]) + 2, ' ');
-      out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
-    }
-  }
-
- private:
-  /// Characters of UTF-8, which is near enough to what a terminal shows.
-  static std::size_t width(const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-  }
-  std::vector<Row> rows_;
-};
-
 std::string layer_names(const Mesh& mesh) {
   std::vector<std::string> names;
   for (const UvLayer& layer : mesh.uv_layers) names.push_back(layer.name);
   return names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-Table::Row row_of(const InspectedObject& object) {
-  Table::Row row{object.object->key, object.object->type, std::to_string(object.mesh->triangles()),
-                 layer_names(*object.mesh)};
+TextTable::Row row_of(const InspectedObject& object) {
+  TextTable::Row row{object.object->key, object.object->type, std::to_string(object.mesh->triangles()),
+                     layer_names(*object.mesh)};
   if (!object.not_baked.empty()) {
     row.insert(row.end(), {"-", "-", "-", "not baked: " + object.not_baked});
     return row;
   }
   const std::string size = fmt::format("{0} x {0}", object.resolution);
   row.push_back(object.lightmap_layer.empty() ? "(unwrap)" : object.lightmap_layer);
-  row.push_back(object.parts == 1 ? size : fmt::format("{} parts", object.parts));
+  row.push_back(object.parts == 1 ? size : counted(object.parts, "part"));
   row.push_back(object.uv ? fmt::format("{:.3g}", object.uv->density.median) : "-");
   row.push_back(fmt::format("{}", fmt::join(object.problems, "; ")));
   return row;
 }
 
 /// Instances of one object by one instancer that are alike become one row; so do those that are not selected.
-std::vector<Table::Row> grouped_rows(const std::vector<InspectedObject>& objects) {
+std::vector<TextTable::Row> grouped_rows(const std::vector<InspectedObject>& objects) {
   struct Group {
-    Table::Row row;
+    TextTable::Row row;
     std::size_t count = 0;
   };
   std::vector<Group> groups;
-  std::map<Table::Row, std::size_t> known;
+  std::map<TextTable::Row, std::size_t> known;
   for (const InspectedObject& object : objects) {
     if (object.not_baked == not_selected) continue;
-    const Table::Row row = row_of(object);
-    Table::Row alike = row;
+    const TextTable::Row row = row_of(object);
+    TextTable::Row alike = row;
     const SceneObject& it = *object.object;
     if (!it.instancer.empty()) alike.front() = it.instancer + "/" + it.name + "#*";
     const auto [entry, is_new] = known.try_emplace(alike, groups.size());
@@ -84,7 +55,7 @@ std::vector<Table::Row> grouped_rows(const std::vector<InspectedObject>& objects
     Group& group = groups[entry->second];
     if (++group.count == 2) group.row = alike;
   }
-  std::vector<Table::Row> rows;
+  std::vector<TextTable::Row> rows;
   for (Group& group : groups) {
     if (group.count > 1) group.row.front() += fmt::format(" ({})", group.count);
     rows.push_back(std::move(group.row));
@@ -97,14 +68,15 @@ void write_not_selected(const std::vector<InspectedObject>& objects, std::ostrea
   for (const InspectedObject& object : objects) {
     if (object.not_baked == not_selected) keys.push_back(object.object->key);
   }
-  if (!keys.empty()) out << fmt::format("\nnot selected ({}): {}\n", keys.size(), name_list(keys, 8));
+  if (!keys.empty())
+    out << '\n' << printable(fmt::format("not selected ({}): {}", keys.size(), name_list(keys, 8))) << '\n';
 }
 
 void write_lights(const Survey& survey, std::ostream& out) {
   for (const LightInfo& light : survey.lights) {
-    out << fmt::format("light     {} ({}, {:g})", light.name, light.type, light.energy);
-    if (!light.outside_model.empty()) out << ": " << fmt::format("{}", fmt::join(light.outside_model, ", "));
-    out << '\n';
+    std::string line = fmt::format("light     {} ({}, {:g})", light.name, light.type, light.energy);
+    if (!light.outside_model.empty()) line += fmt::format(": {}", fmt::join(light.outside_model, ", "));
+    out << printable(line) << '\n';
   }
   out << fmt::format("world     {}", survey.world);
   if (survey.world != "none") out << fmt::format(" ({:g})", survey.world_strength);
@@ -163,16 +135,17 @@ json light_json(const LightInfo& light) {
 }  // namespace
 
 void write_inspection(const Survey& survey, const Inspection& inspection, std::ostream& out) {
-  Table table;
+  TextTable table;
   table.add({"OBJECT", "TYPE", "TRIANGLES", "UV LAYERS", "LIGHTMAP", "SIZE", "TEXELS/UNIT", "PROBLEMS"});
-  for (Table::Row& row : grouped_rows(inspection.objects)) table.add(std::move(row));
+  for (TextTable::Row& row : grouped_rows(inspection.objects)) table.add(std::move(row));
   table.write(out);
   write_not_selected(inspection.objects, out);
   out << '\n';
   write_lights(survey, out);
   for (const MaterialInfo* material : inspection.outside_model) {
-    out << fmt::format("material  {}: beyond diffuse and emission: {}\n", material->name,
-                       fmt::join(material->outside_model, ", "));
+    out << printable(fmt::format("material  {}: beyond diffuse and emission: {}", material->name,
+                                 fmt::join(material->outside_model, ", ")))
+        << '\n';
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/export_scene.h"
@@ -20,10 +21,11 @@ namespace {
 int report(const ReferenceOutcome& outcome, const OutputSettings& output) {
   const std::size_t total = outcome.deliveries.size();
   if (const std::size_t failed = count_failed(outcome.deliveries); failed > 0) {
-    log::warn("{} of {} objects failed; the others are in {}", failed, total, output.dir.string());
+    log::warn("{} of {} failed; what was finished is in {}", failed, counted(total, "object"),
+              output.dir.string());
     return static_cast<int>(ExitCode::tasks_failed);
   }
-  log::info("{} lightmap{} in {}, {:.1f} s, {:.2f} million rays a second", total, total == 1 ? "" : "s",
+  log::info("{} in {}, {:.1f} s, {:.2f} million rays a second", counted(total, "lightmap"),
             output.dir.string(), outcome.wall_seconds,
             outcome.wall_seconds > 0 ? double(outcome.rays) / outcome.wall_seconds / 1e6 : 0.0);
   return static_cast<int>(ExitCode::ok);
@@ -58,8 +60,8 @@ int reference(const ResolvedConfig& config) {
     saved = save_scene_with_uvs(workspace, survey, exported.scene.own,
                                 earlier.add_to(uvs_of(exported.list.targets)));
   }
-  log::info("tracing {} lightmaps x {} directions against Blender {}", exported.list.targets.size(),
-            bases.size(), plan.blender_version);
+  log::info("tracing {} x {} against Blender {}", counted(exported.list.targets.size(), "lightmap"),
+            counted(bases.size(), "direction"), plan.blender_version);
   return report(run_reference({scene, exported.list, bases, earlier}, settings, plan, "tracing", saved),
                 settings.output);
 }

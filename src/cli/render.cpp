@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/render_flags.h"
 #include "image/display_png.h"
@@ -145,7 +146,7 @@ void write_comparison(Report report, const ResolvedConfig& config, const RenderF
     write_exr(flags.output / file_name(picture.label), image, Depth::full);
   }
   write_report(report, flags.output);
-  std::cout << report.finding << '\n';
+  std::cout << printable(report.finding) << '\n';
   log::info("report: {}", (flags.output / "report.html").string());
 }
 

@@ -60,13 +60,13 @@ void SsbumpFlags::add_height_flags(CLI::App& command) {
   command
       .add_option("--channel", run_.heights.channel,
                   "where the heights are: a channel's name or number, or alpha, luminance [luminance of "
-                  "colours, else the first]")
+                  "colours, else the only one beside alpha]")
       ->type_name("NAME");
   command.add_flag("--invert", run_.heights.invert, "the map holds depths: bright is low");
   command
       .add_option("-s,--height", height_,
-                  "bump scale: how many texels high the full range 0 to 1 is [a 32nd of the width; 1 for "
-                  "float files, which then are in texels]")
+                  "bump scale: how many texels high the full range 0 to 1 is [a 32nd of the side of a square "
+                  "of as many texels; 1 for float files, which then are in texels]")
       ->type_name("TEXELS");
   auto* world = command.add_option("--height-world", height_world_, "the same in the units of --texel-size")
                     ->type_name("UNITS");

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/math.h"
+#include "base/text.h"
 #include "cli/ssbump_tool_flags.h"
 #include "cli/ssbump_tools.h"
 #include "ssbump/normals.h"
@@ -86,7 +87,7 @@ void print_json(const Options& options, const SsbumpPicture& picture) {
 void print(const Options& options, const SsbumpPicture& picture) {
   const SsbumpMetadata& metadata = picture.metadata;
   const auto row = [](const char* name, const std::string& value) {
-    if (!value.empty()) std::cout << fmt::format("{:<12} {}\n", name, value);
+    if (!value.empty()) std::cout << printable(fmt::format("{:<12} {}", name, value)) << '\n';
   };
   row("file", fmt::format("{}, {} x {}, {}", options.input.file.string(), picture.weights.width(),
                           picture.weights.height(), picture.storage));

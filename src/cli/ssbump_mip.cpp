@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/ssbump_tool_flags.h"
 #include "cli/ssbump_tools.h"
 #include "ssbump/mips.h"
@@ -48,8 +49,8 @@ int run(const Options& options) {
   for (const auto& written : files) written->commit();
   if (levels == 0) log::warn("{}: one texel has no smaller levels", options.input.file.string());
   if (levels > 0) {
-    log::info("{} to {}: {} levels", level_file(file, 1).string(),
-              level_file(file, levels).filename().string(), levels);
+    log::info("{} to {}: {}", level_file(file, 1).string(), level_file(file, levels).filename().string(),
+              counted(static_cast<std::size_t>(levels), "level"));
   }
   return static_cast<int>(ExitCode::ok);
 }

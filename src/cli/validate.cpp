@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "cli/basis_file.h"
 #include "cli/command_line.h"
 #include "cli/settings_flags.h"
@@ -94,7 +95,7 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   prepare_output(config.globals.output);
   Validation found = validate(workspace, bases, {flags.decompose, flags.study == "split", flags.view});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
-  std::cout << found.receiver.finding << '\n';
+  std::cout << printable(found.receiver.finding) << '\n';
   log::info("report: {}", (config.globals.output.dir / "report.html").string());
   for (const std::string& line : describe(limits)) log::error("{}", line);
   if (!limits.exceeded.empty()) return static_cast<int>(ExitCode::threshold_exceeded);

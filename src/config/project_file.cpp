@@ -2,17 +2,13 @@
 
 #include "base/error.h"
 #include "base/names.h"
+#include "base/read_file.h"
+#include "config/parse_toml.h"
 #include "config/value.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
-
-#include <toml++/toml.h>
 
 namespace rnmbake {
 
@@ -194,20 +190,12 @@ bool is_setting_table(std::string_view name) {
   return false;
 }
 
-toml::table parse_toml(std::string_view text, const Reader& reader) {
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    fail(ExitCode::usage, "{}: not TOML: {}", reader.where(error.source()), error.description());
-  }
-}
-
 }  // namespace
 
 ProjectFile parse_project(std::string_view text, const std::filesystem::path& file) {
   const Reader reader{file};
   ProjectFile project{file, {}, {}};
-  const toml::table root = parse_toml(text, reader);
+  const toml::table root = parse_toml(text, file.string(), ExitCode::usage);
   for (const auto& [key, node] : root) {
     if (key.str() == override_table) {
       read_overrides(reader, node, project);
@@ -225,15 +213,7 @@ ProjectFile parse_project(std::string_view text, const std::filesystem::path& fi
 }
 
 ProjectFile read_project(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) {
-    fail(ExitCode::io, "{}: is a folder; name a project file", file.string());
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    fail(ExitCode::io, "{}: cannot be read ({}); check the path", file.string(), std::strerror(errno));
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return parse_project(text, file);
+  return parse_project(read_text(file, largest_toml), file);
 }
 
 }  // namespace rnmbake

@@ -196,6 +196,9 @@ void require_scene(const ResolvedConfig& config, Purpose purpose) {
   if (std::filesystem::is_directory(status)) {
     fail(ExitCode::io, "{}: is a folder; name the scene file in it", file.string());
   }
+  if (!std::filesystem::is_regular_file(status)) {
+    fail(ExitCode::io, "{}: is a pipe, a device or a socket; give a regular file", file.string());
+  }
 }
 
 }  // namespace rnmbake

@@ -1,11 +1,9 @@
 #include "image/oiio_open.h"
 
 #include "base/error.h"
+#include "base/read_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -22,14 +20,6 @@ std::optional<Attribute> attribute_of(const OIIO::ParamValue& value) {
   if (type.basetype != OIIO::TypeDesc::FLOAT) return std::nullopt;
   const auto* numbers = static_cast<const float*>(value.data());
   return Attribute(std::vector<float>(numbers, numbers + type.basevalues()));
-}
-
-void check_readable(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (std::filesystem::is_directory(file))
-    fail(ExitCode::io, "cannot read {}: is a folder; name a picture", file.string());
-  if (!in) fail(ExitCode::io, "cannot read {}: {}", file.string(), std::strerror(errno != 0 ? errno : EIO));
 }
 
 }  // namespace
@@ -60,7 +50,7 @@ void fail_damaged(const std::filesystem::path& file, std::string reason) {
 }
 
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path& file) {
-  check_readable(file);
+  require_regular_file(file);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha",
                    1);  // or the colours of a normal map come multiplied by its alpha

@@ -1,56 +1,37 @@
 #include "base/error.h"
+#include "image/channels.h"
 #include "image/layered_exr.h"
 #include "image/oiio_open.h"
 
 #include <algorithm>
-#include <map>
+#include <cstddef>
 #include <new>
+#include <numeric>
+#include <string_view>
 
 #include <OpenImageIO/imageio.h>
 
 namespace rnmbake {
 namespace {
 
-/// Where a channel of the file belongs: `index` is its place among the file's channels.
-struct ChannelPlace {
-  std::string layer, channel;
-  int index = 0;
-};
-
-/// `rnm0.R` -> rnm0, R; `R` -> "", R; `coverage` -> coverage, "" (see Layer).
-ChannelPlace place_of(const std::string& name, int index) {
-  const auto dot = name.rfind('.');
-  if (dot != std::string::npos) return {name.substr(0, dot), name.substr(dot + 1), index};
-  if (name.size() == 1) return {"", name, index};
-  return {name, "", index};
-}
-
-/// Files list their channels by the alphabet; pixels are wanted as RGBA or XYZ.
+/// Files list their channels by the alphabet; pixels are wanted as RGB or XYZ, with what else there is behind
+/// and alpha at the end.
 int rank_of(const std::string& channel) {
-  static constexpr std::string_view kOrder = "RGBAXYZ";
-  const auto found = channel.size() == 1 ? kOrder.find(channel[0]) : std::string_view::npos;
-  return static_cast<int>(found == std::string_view::npos ? kOrder.size() : found);
+  static constexpr std::string_view order = "RGBXYZ";
+  if (channel == "A") return static_cast<int>(order.size()) + 1;
+  const auto found = channel.size() == 1 ? order.find(channel[0]) : std::string_view::npos;
+  return static_cast<int>(found == std::string_view::npos ? order.size() : found);
 }
 
-std::map<std::string, std::vector<ChannelPlace>> grouped(const OIIO::ImageSpec& spec) {
-  std::map<std::string, std::vector<ChannelPlace>> layers;
-  for (int c = 0; c < spec.nchannels; ++c) {
-    const ChannelPlace place = place_of(spec.channelnames[static_cast<std::size_t>(c)], c);
-    layers[place.layer].push_back(place);
-  }
-  for (auto& [name, places] : layers) {
-    std::ranges::stable_sort(places, {}, [](const ChannelPlace& place) { return rank_of(place.channel); });
-  }
-  return layers;
-}
-
-Layer layer_of(const std::string& name, const std::vector<ChannelPlace>& places, const OIIO::ImageSpec& spec,
-               const std::vector<float>& pixels) {
-  Layer layer{name, {}, FloatImage(spec.width, spec.height, static_cast<int>(places.size()))};
-  for (const ChannelPlace& place : places) layer.channels.push_back(place.channel);
+Layer layer_of(const ChannelGroup& group, const OIIO::ImageSpec& spec, const std::vector<float>& pixels) {
+  std::vector<std::size_t> order(group.channels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t place) { return rank_of(group.channels[place]); });
+  Layer layer{group.layer, {}, FloatImage(spec.width, spec.height, static_cast<int>(order.size()))};
+  for (const std::size_t place : order) layer.channels.push_back(group.channels[place]);
   auto& data = layer.pixels.data();
   for (std::size_t texel = 0, at = 0; texel < layer.pixels.texels(); ++texel)
-    for (const ChannelPlace& place : places) data[at++] = pixels[texel * spec.nchannels + place.index];
+    for (const std::size_t place : order) data[at++] = pixels[texel * spec.nchannels + group.index[place]];
   return layer;
 }
 
@@ -69,8 +50,8 @@ LayeredImage read_image(const std::filesystem::path& file) try {
   const auto in = open_picture(file);
   const std::vector<float> pixels = pixels_of(file, *in);
   LayeredImage image;
-  for (const auto& [name, places] : grouped(in->spec()))
-    image.layers.push_back(layer_of(name, places, in->spec(), pixels));
+  for (const ChannelGroup& group : channel_groups(in->spec().channelnames))
+    image.layers.push_back(layer_of(group, in->spec(), pixels));
   image.attributes = attributes_of(in->spec());
   return image;
 } catch (const std::bad_alloc&) {

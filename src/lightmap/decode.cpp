@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "basis/rnm.h"
+#include "image/channels.h"
 #include "image/sample.h"
 #include "lightmap/normalize.h"
 
@@ -47,17 +48,13 @@ FloatImage decode_all(const LightmapDecoder& decoder, FloatImage result, Green g
   return result;
 }
 
-const Layer& normal_layer(const LayeredImage& picture, const std::string& file) {
-  for (const char* name : {"", "normal"}) {
-    const Layer* layer = picture.find(name);
-    if (layer != nullptr && layer->pixels.channels() >= 2 && layer->channels[1] != "A") return *layer;
-  }
-  fail(ExitCode::invalid_input, "{} holds no normals: two or three plain channels are needed", file);
-}
-
-Vec3 normal_from(std::span<const float> texel, bool is_signed, bool has_z) {
-  const auto component = [&](std::size_t i) { return is_signed ? texel[i] : 2 * texel[i] - 1; };
+Vec3 normal_from(std::span<const float> texel, const VectorSource& source) {
+  const auto component = [&](std::size_t i) {
+    const float value = texel[static_cast<std::size_t>(source.places[i])];
+    return source.is_signed ? value : 2 * value - 1;
+  };
   const float x = component(0), y = component(1);
+  const bool has_z = source.places.size() > 2;
   const Vec3 normal(x, y, has_z ? component(2) : std::sqrt(std::max(0.0F, 1 - x * x - y * y)));
   const float length = normal.length();
   return length > 0 && std::isfinite(length) ? normal / length : Vec3(0, 0, 1);
@@ -75,14 +72,18 @@ std::optional<std::string> rnm_obstacle(const LightmapMetadata& metadata, Decode
 }  // namespace
 
 Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata) {
-  const auto pixels = [&](const char* name, int channels) {
+  const auto colours = [&](const char* name) {
     const Layer* layer = image.find(name);
-    return layer != nullptr && layer->pixels.channels() == channels ? layer->pixels : FloatImage();
+    const auto places = layer == nullptr ? std::vector<int>{} : places_of(layer->channels, "RGB");
+    if (places.empty()) return FloatImage();
+    return layer->pixels.channels() == 3 ? layer->pixels : picked(layer->pixels, places);
   };
+  const Layer* coverage = image.find("coverage");
+  const bool is_single = coverage != nullptr && coverage->pixels.channels() == 1;
   return {metadata,
-          pixels("", 3),
-          {pixels("rnm0", 3), pixels("rnm1", 3), pixels("rnm2", 3)},
-          pixels("coverage", 1)};
+          colours(""),
+          {colours("rnm0"), colours("rnm1"), colours("rnm2")},
+          is_single ? coverage->pixels : FloatImage()};
 }
 
 const char* name_of(DecodeVariant variant) {
@@ -100,15 +101,12 @@ const char* name_of(DecodeVariant variant) {
 }
 
 FloatImage normals_of(const LayeredImage& picture, const std::string& file) {
-  const Layer& layer = normal_layer(picture, file);
-  const FloatImage& source = layer.pixels;
-  const bool has_z = source.channels() >= 3 && layer.channels[2] != "A";
-  const bool is_signed =
-      layer.channels[0] == "X" || std::ranges::any_of(source.data(), [](float value) { return value < 0; });
-  FloatImage normals(source.width(), source.height(), 3);
-  for (int y = 0; y < source.height(); ++y) {
-    for (int x = 0; x < source.width(); ++x) {
-      const Vec3 normal = normal_from(source.texel(x, y), is_signed, has_z);
+  const VectorSource source = vector_source(picture, file);
+  const FloatImage& pixels = source.layer->pixels;
+  FloatImage normals(pixels.width(), pixels.height(), 3);
+  for (int y = 0; y < pixels.height(); ++y) {
+    for (int x = 0; x < pixels.width(); ++x) {
+      const Vec3 normal = normal_from(pixels.texel(x, y), source);
       std::ranges::copy(std::array{normal.x, normal.y, normal.z}, normals.texel(x, y).begin());
     }
   }

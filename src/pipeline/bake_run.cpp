@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/names.h"
+#include "base/text.h"
 #include "pipeline/delivery.h"
 #include "pipeline/manifest.h"
 #include "pipeline/save_scene.h"
@@ -60,8 +61,8 @@ class BakeRun {
   BakeOutcome run() {
     make_plan();
     const BakeContext context{subject_.survey, list_.targets, bases_, plan_};
-    log::info("baking {} lightmaps x {} bases in {} launch{} of Blender {}", list_.targets.size(),
-              bases_.size(), plan_.dispatches.size(), plan_.dispatches.size() == 1 ? "" : "es",
+    log::info("baking {} x {} in {} of Blender {}", counted(list_.targets.size(), "lightmap"),
+              counted(bases_.size(), "basis"), counted(plan_.dispatches.size(), "launch"),
               workspace_.blender().info().version_text);
     DeliveryDesk desk(context, settings_.output, notes_);
     BakeOutcome outcome;

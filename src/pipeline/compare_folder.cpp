@@ -1,12 +1,14 @@
 #include "pipeline/compare_folder.h"
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/json.h"
+#include "base/read_file.h"
+#include "image/channels.h"
+#include "pipeline/manifest.h"
 
 #include <algorithm>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
@@ -22,10 +24,9 @@ constexpr const char* kLayer = "rnmbake:layer";
 
 /// Names from a manifest never lead out of its folder.
 std::filesystem::path inside(const std::filesystem::path& manifest, const std::string& name) {
-  const std::filesystem::path relative(name);
-  if (name.empty() || relative.filename() != relative || name == "." || name == "..")
-    fail_manifest(manifest, fmt::format("'{}' is no plain file name", name));
-  return manifest.parent_path() / relative;
+  const auto file = file_inside(manifest.parent_path(), name);
+  if (!file) fail_manifest(manifest, fmt::format("{} is no plain file name", brief(json(name))));
+  return *file;
 }
 
 LightmapPlace place_of(const std::filesystem::path& manifest, const json& entry) {
@@ -49,7 +50,7 @@ std::vector<std::string> notes_of(const json& manifest) {
   return notes;
 }
 
-LightmapFolder read_manifest(const std::filesystem::path& folder) {
+LightmapFolder read_folder(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "manifest.json";
   if (!std::filesystem::exists(file)) {
     fail(
@@ -59,7 +60,7 @@ LightmapFolder read_manifest(const std::filesystem::path& folder) {
   }
   LightmapFolder found{folder, false, {}, {}, {}};
   try {
-    const json manifest = json::parse(read_text(file));
+    const json manifest = read_manifest(file);
     found.notes = notes_of(manifest);
     for (const json& entry : manifest.at("objects")) {
       LightmapPlace place = place_of(file, entry);
@@ -72,7 +73,7 @@ LightmapFolder read_manifest(const std::filesystem::path& folder) {
       found.places.push_back(std::move(place));
     }
   } catch (const json::exception& problem) {
-    fail_manifest(file, fmt::format("is no manifest ({})", problem.what()));
+    fail_manifest(file, fmt::format("is no manifest ({})", brief(problem)));
   }
   return found;
 }
@@ -85,10 +86,19 @@ void name_split_layer(LayeredImage& part) {
   part.layers.front().name = *name == "flat" ? "" : *name;
 }
 
+/// Alpha, which some other program may have added, is no part of a lightmap.
+void keep_colour(Layer& layer) {
+  const auto places = places_of(layer.channels, "RGB");
+  if (places.empty() || layer.channels.size() == places.size()) return;
+  layer.pixels = picked(layer.pixels, places);
+  layer.channels = {"R", "G", "B"};
+}
+
 void append_layers(LoadedLightmap& lightmap, LayeredImage&& part, const std::filesystem::path& file) {
   name_split_layer(part);
   const auto& known = lightmap.image.layers;
   for (Layer& layer : part.layers) {
+    keep_colour(layer);
     const FloatImage& pixels = layer.pixels;
     if (!known.empty() && (known.front().pixels.width() != pixels.width() ||
                            known.front().pixels.height() != pixels.height())) {
@@ -108,7 +118,7 @@ const LightmapPlace* LightmapFolder::find(const std::string& key) const {
 }
 
 LightmapFolder open_lightmaps(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) return read_manifest(path);
+  if (std::filesystem::is_directory(path)) return read_folder(path);
   LightmapPlace place{path.stem().string(), {path}, {}};
   const LoadedLightmap lightmap = load_lightmap(place);
   if (!lightmap.metadata.object.empty()) place.key = lightmap.metadata.object;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "lightmap/layout.h"
 #include "pipeline/name_list.h"
 
@@ -27,11 +28,12 @@ MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& not
 
 void warn_about(const std::string& key, const MergeCounts& counts, bool repaired) {
   if (counts.non_finite > 0) {
-    log::warn("{}: {} texels are NaN or infinite{}", key, counts.non_finite,
+    log::warn("{}: {} NaN or infinite{}", key, counted(counts.non_finite, "texel"),
               repaired ? ", repaired" : "; --repair fills them from their neighbours");
   }
   if (counts.beyond_half > 0) {
-    log::warn("{}: {} values beyond 65504 were clamped; --depth float keeps them", key, counts.beyond_half);
+    log::warn("{}: {} beyond 65504 clamped; --depth float keeps what is above", key,
+              counted(counts.beyond_half, "value"));
   }
 }
 

@@ -2,7 +2,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json.h"
 #include "base/log.h"
+#include "base/read_file.h"
+#include "base/text.h"
 #include "lightmap/metadata.h"
 #include "pipeline/manifest.h"
 #include "pipeline/scene_survey.h"
@@ -75,7 +78,7 @@ class Search {
   EarlierLightmaps find() {
     if (!fs::is_regular_file(file_)) return {};
     try {
-      manifest_ = json::parse(read_text(file_));
+      manifest_ = json_or_null(read_text(file_));
       return keep(candidates());
     } catch (const json::exception&) {
       log::warn("{}: is no manifest of rnmbake; the lightmaps that it may have listed are not in the new one",
@@ -110,7 +113,8 @@ class Search {
   [[nodiscard]] std::optional<std::string> missing_file(const json& entry) const {
     for (const json& file : entry.at("files")) {
       const auto name = file.get<std::string>();
-      if (fs::path(name).filename() != name || !fs::is_regular_file(beside(name))) return name;
+      const auto inside = file_inside(file_.parent_path(), name);
+      if (!inside || !fs::is_regular_file(*inside)) return name;
     }
     return std::nullopt;
   }
@@ -120,8 +124,8 @@ class Search {
     if (candidates.empty()) return earlier;
     refuse_conflicts(candidates);
     const auto saved = manifest_.at("scene_with_uvs").get<std::string>();
-    if (!saved.empty() && fs::path(saved).filename() == saved && fs::is_regular_file(beside(saved)))
-      earlier.scene_with_uvs = saved;
+    const auto inside = file_inside(file_.parent_path(), saved);
+    if (inside && fs::is_regular_file(*inside)) earlier.scene_with_uvs = saved;
     const json facts = facts_of_run(manifest_);
     for (const Candidate& candidate : candidates) {
       EarlierLightmap one{0, candidate.entry, nullptr};
@@ -133,9 +137,7 @@ class Search {
       earlier.kept.push_back(std::move(one));
     }
     if (!earlier.kept.empty())
-      log::info("{} of earlier runs: kept in {}",
-                earlier.kept.size() == 1 ? "a lightmap" : fmt::format("{} lightmaps", earlier.kept.size()),
-                file_.string());
+      log::info("{} of earlier runs: kept in {}", counted(earlier.kept.size(), "lightmap"), file_.string());
     return earlier;
   }
 
@@ -148,7 +150,7 @@ class Search {
            "folder "
            "holds one kind; pass another -o, or delete that manifest to start anew",
            file_.string(), candidates.size(), candidates.front().key, what,
-           numbers ? names_in(there) : there.dump(), numbers ? names_in(now) : now.dump());
+           numbers ? names_in(there) : brief(there), numbers ? names_in(now) : brief(now));
     };
     differ("schema_version", manifest_.at("schema_version"), manifest_schema_version);
     differ("scene", manifest_.at("scene"), workspace_.settings().scene.file.filename().string());
@@ -175,7 +177,7 @@ class Search {
     }
     if (candidate.entry.at("object_in_scene") == "") return "";  // the user kept the UVs, or nobody did
     if (saved.empty())
-      return fmt::format("its UVs were in {}, which is gone", manifest_.at("scene_with_uvs").dump());
+      return fmt::format("its UVs were in {}, which is gone", brief(manifest_.at("scene_with_uvs")));
     const Survey& there = saved_survey(saved);
     const SceneObject* holder = find_object(there, candidate.object_key);
     const std::vector<Vec2>* uv = holder == nullptr ? nullptr : find_layer(there.mesh_of(*holder), layer);

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/object_notes.h"
+#include "pipeline/launch_answer.h"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +23,7 @@ Exchange launch_export(Workspace& workspace, const fs::path& blend) {
   launch.folder = workspace.new_folder("export");
   const fs::path folder = launch.folder;
   const nlohmann::json answer = workspace.run(std::move(launch));
-  return read_exported(folder / answer.at("survey").get<std::string>());
+  return read_exported(answered_file(answer, "survey", folder));
 }
 
 void set_layer(Mesh& mesh, const std::string& name, const std::vector<Vec2>& uv) {
@@ -75,7 +77,7 @@ ExportedScene export_scene(Workspace& workspace) {
     result.exchange = launch_export(workspace, result.scene.blend);
     result.exchange.survey.scene_file = file.string();
   }
-  for (const std::string& warning : result.exchange.survey.warnings) log::warn("{}", warning);
+  warn_of_objects(result.exchange.survey.warnings);
   if (result.exchange.survey.objects.empty()) {
     fail(ExitCode::invalid_input,
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",

@@ -3,6 +3,7 @@
 #include "bake/uv_problems.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "pipeline/name_list.h"
 #include "pipeline/unwrap.h"
 #include "scene/lighting.h"
@@ -70,8 +71,8 @@ class TargetMaker {
     warn_of_skipped();
     if (candidates_.empty()) {
       fail(ExitCode::invalid_input,
-           "nothing to bake in {}: none of its {} objects is selected and has faces with an area",
-           survey_.scene_file, survey_.objects.size());
+           "nothing to bake in {}: of its {} none is selected and has faces with an area", survey_.scene_file,
+           counted(survey_.objects.size(), "object"));
     }
     unwrap_those_without_uv();
     for (const Candidate& candidate : candidates_) add_targets(candidate);

@@ -21,6 +21,10 @@ namespace rnmbake {
 /// Raised when a reader of the old form would misunderstand the new one.
 inline constexpr int manifest_schema_version = 1;
 
+/// Throws Error(invalid_input) naming the file where it is no manifest, Error(unsupported) where it has
+/// another schema version.
+[[nodiscard]] nlohmann::json read_manifest(const std::filesystem::path& file);
+
 /// What only a bake has to say.
 struct BakeRecord {
   const std::vector<HorizonCounts>& horizons;  // [targets]

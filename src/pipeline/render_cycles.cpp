@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "config/settings.h"
 #include "image/layered_exr.h"
+#include "pipeline/launch_answer.h"
 #include "pipeline/render_view.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportedScene&
   const json answer = workspace.run(std::move(launch));
   std::vector<FloatImage> pictures;
   for (const json& name : answer.at("pictures"))
-    pictures.push_back(read_picture(folder / name.get<std::string>(), options));
+    pictures.push_back(read_picture(answered_file(name, folder), options));
   return pictures;
 }
 

@@ -2,10 +2,11 @@
 
 #include "bake/targets.h"
 #include "base/error.h"
-#include "base/files.h"
 #include "base/log.h"
+#include "base/read_file.h"
 #include "image/sample.h"
 #include "pipeline/compare_folder.h"
+#include "pipeline/manifest.h"
 #include "pipeline/render_surfaces.h"
 
 #include <algorithm>
@@ -157,20 +158,19 @@ std::vector<LightmapDecoder> SceneLightmaps::decoders(DecodeVariant variant) con
 std::optional<fs::path> scene_with_lightmap_uvs(const fs::path& folder) {
   const fs::path file = folder / "manifest.json";
   if (!fs::is_regular_file(file)) return std::nullopt;
-  const auto manifest = nlohmann::json::parse(read_text(file), nullptr, false);
-  if (!manifest.is_object()) return std::nullopt;  // said by whoever reads the lightmaps
+  const nlohmann::json manifest = read_manifest(file);
   const auto text = [](const nlohmann::json& owner, const char* key) {
     const auto found = owner.find(key);
     return found != owner.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
-  const fs::path name = text(manifest, "scene_with_uvs");
-  if (name.empty() || name.filename() != name || !fs::is_regular_file(folder / name)) return std::nullopt;
+  const auto saved = file_inside(folder, text(manifest, "scene_with_uvs"));
+  if (!saved || !fs::is_regular_file(*saved)) return std::nullopt;
   const auto objects = manifest.find("objects");
   const bool unwrapped =
       objects != manifest.end() && std::ranges::any_of(*objects, [](const auto& one) {
         return one.is_object() && one.find("unwrapped") != one.end() && *one.find("unwrapped") == true;
       });
-  return unwrapped ? std::optional(folder / name) : std::nullopt;
+  return unwrapped ? saved : std::nullopt;
 }
 
 }  // namespace rnmbake

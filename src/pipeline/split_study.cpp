@@ -1,6 +1,7 @@
 #include "pipeline/split_study.h"
 
 #include "base/log.h"
+#include "base/text.h"
 #include "pipeline/compare.h"
 #include "scene/uv_raster.h"
 
@@ -165,7 +166,7 @@ std::vector<Splitting> splittings(const ExportedScene& exported) {
   std::erase_if(all, [](const Splitting& one) {
     const bool too_many = one.name != "whole" && one.list.targets.size() > most_targets;
     if (too_many)
-      log::info("the study leaves out '{}': it has {} targets", one.name, one.list.targets.size());
+      log::info("the study leaves out '{}': it has {}", one.name, counted(one.list.targets.size(), "target"));
     return too_many;
   });
   return all;

@@ -4,6 +4,7 @@
 #include "bake/request.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/read_file.h"
 #include "basis/rnm.h"
 #include "ssbump/height_mesh.h"
 
@@ -154,6 +155,7 @@ json lamps() {
 /// RGBA, row 0 on top.
 FloatImage read_pixels(const fs::path& file, int width, int height) {
   FloatImage picture(width, height, 4);
+  require_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   const std::size_t row = std::size_t(width) * 4;
   for (int y = height - 1; y >= 0; --y)

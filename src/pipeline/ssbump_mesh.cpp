@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/names.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "config/resolve.h"
 #include "lightmap/fill.h"
 #include "pipeline/scene_survey.h"
@@ -208,13 +209,13 @@ void check_uvs(const std::vector<LowSurface>& low, const SsbumpMeshOptions& opti
                                             low[worst.second].name);
   const double share = double(worst.texels) / covered;
   if (options.allow_overlap || share < noticed_overlap) {
-    log::warn("{} in {} texels; the last face has them", who, worst.texels);
+    log::warn("{} in {}; the last face has them", who, counted(worst.texels, "texel"));
     return;
   }
   fail(ExitCode::invalid_input,
-       "{} in {} texels ({:.1f} %): unwrap them apart, name another layer with --uv, or pass --allow-overlap "
+       "{} in {} ({:.1f} %): unwrap them apart, name another layer with --uv, or pass --allow-overlap "
        "where that is meant (mirrored halves)",
-       who, worst.texels, 100 * share);
+       who, counted(worst.texels, "texel"), 100 * share);
 }
 
 /// Says what found no detail. Throws where nothing did.
@@ -238,14 +239,14 @@ void report_misses(const SsbumpMesh& result) {
          name, result.cage);
   }
   if (behind > 0)
-    log::warn("{} places found only the back of a face: are normals of the detailed mesh turned round?",
-              behind);
+    log::warn("{} found only the back of a face: are normals of the detailed mesh turned round?",
+              counted(behind, "place"));
   if (missed == 0) return;
   log::warn(
-      "{} of {} texels ({:.1f} %) found no detail within {:.4g} units; worst is '{}' ({:.1f} %), first at "
+      "{} of {} ({:.1f} %) found no detail within {:.4g} units; worst is '{}' ({:.1f} %), first at "
       "texel {}, {}; raise --cage, or see --missing",
-      missed, texels, 100.0 * double(missed) / double(texels), result.cage, name, 100 * share(worst),
-      surfaces[worst].missed_x, surfaces[worst].missed_y);
+      missed, counted(texels, "texel"), 100.0 * double(missed) / double(texels), result.cage, name,
+      100 * share(worst), surfaces[worst].missed_x, surfaces[worst].missed_y);
 }
 
 void renormalize(FloatImage& normals) {
@@ -299,9 +300,10 @@ SsbumpMesh measure_ssbump_mesh(Workspace& workspace, const SsbumpMeshOptions& op
   result.cage = measured.cage;
   result.blender_version = workspace.blender().info().version_text;
   for (const LowSurface& low : meshes.low) result.objects.push_back(low.name);
-  log::info("{} triangles of detail on {}, {} x {} texels, {} rays each, cage {:.4g}",
-            meshes.high.position.size() / 3, fmt::join(result.objects, ", "), measured.width, measured.height,
-            measured.rays, result.cage);
+  log::info("{} of detail on {}, {} x {} texels, {} each, cage {:.4g}",
+            counted(meshes.high.position.size() / 3, "triangle"), fmt::join(result.objects, ", "),
+            measured.width, measured.height, counted(static_cast<std::size_t>(measured.rays), "ray"),
+            result.cage);
   result.maps = measure(meshes, measured);
   report_misses(result);
   fill(result.maps, options);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "image/channels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,15 @@ namespace {
 FloatImage pixels_of(PictureReader& reader, const std::string& file) {
   const PictureFacts& facts = reader.facts();
   const auto channels = static_cast<int>(facts.channels.size());
-  if (channels < 3) {
-    fail(ExitCode::invalid_input, "{} has {} channel{}; a self-shadowed bump map has three or four", file,
-         channels, channels == 1 ? "" : "s");
+  auto places = colour_channels(facts.channels, file, "save the map as a picture of its own");
+  if (places.empty()) {
+    fail(ExitCode::invalid_input, "{}: its channels are {}; a self-shadowed bump map has R, G, B and maybe A",
+         file, listed(facts.channels));
   }
-  FloatImage pixels(facts.width, facts.height, std::min(channels, 4));
-  reader.read(0, facts.height, 0, pixels.channels(), pixels.data());
+  if (const auto alpha = places_of(facts.channels, "A"); !alpha.empty()) places.push_back(alpha.front());
+  FloatImage all(facts.width, facts.height, channels);
+  reader.read(0, facts.height, 0, channels, all.data());
+  const FloatImage pixels = picked(all, places);
   const auto bad = std::ranges::find_if_not(pixels.data(), [](float value) { return std::isfinite(value); });
   if (bad != pixels.data().end()) {
     const auto texel = (bad - pixels.data().begin()) / pixels.channels();

@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "pipeline/name_list.h"
 #include "scene/tangents.h"
@@ -18,9 +19,9 @@ void LostDirections::add(const Target& target, std::size_t corners) {
 void LostDirections::warn() const {
   if (names_.empty()) return;
   log::warn(
-      "{}: {} corners have no tangent, since their UVs meet in a point or line; the basis is turned at will "
+      "{}: {} without a tangent, since their UVs meet in a point or line; the basis is turned at will "
       "there: unwrap these faces, or name another layer with --tangent-uv",
-      name_list(names_), corners_);
+      name_list(names_), counted(corners_, "corner"));
 }
 
 Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost) {

@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "pipeline/workspace.h"
 #include "process/stop.h"
 #include "unwrap/unwrap_mesh.h"
@@ -98,7 +99,7 @@ std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& 
     first_user.push_back(&request);
     triangles += static_cast<double>(survey.mesh_of(object).triangles());
   }
-  log::info("unwrapping {} mesh{}", first_user.size(), first_user.size() == 1 ? "" : "es");
+  log::info("unwrapping {}", counted(first_user.size(), "mesh"));
 
   Progress progress("unwrapping", progress_for(log::is_quiet(), log::is_jsonl()));
   std::vector<Uvs> unwrapped;

@@ -1,5 +1,6 @@
 #include "pipeline/validate_finding.h"
 
+#include "base/text.h"
 #include "report/finding.h"
 
 #include <algorithm>
@@ -105,10 +106,11 @@ std::string receiver_finding(const Report& receiver) {
   }
   if (receiver.objects.empty()) return "receiver: nothing was compared";
   const std::string limit = told(receiver.bounce_limit);
-  const std::string unsure =
-      too_noisy == 0 ? ""
-                     : fmt::format("; {} of {} objects are too noisy to tell, bake with more samples",
-                                   too_noisy, receiver.objects.size());
+  const std::string objects = counted(receiver.objects.size(), "object");
+  const std::string unsure = too_noisy == 0
+                                 ? ""
+                                 : fmt::format("; {} of {} {} too noisy to tell, bake with more samples",
+                                               too_noisy, objects, too_noisy == 1 ? "is" : "are");
   if (worst == nullptr)
     return fmt::format("receiver: no bias beyond the noise ({} over the scene){}{}",
                        percent(scene_bias(receiver), true), limit, unsure);
@@ -116,10 +118,10 @@ std::string receiver_finding(const Report& receiver) {
       fmt::format("beyond the noise, most of all {} ({:+.1f} %)", worst->key, 100 * largest);
   const auto& beyond = receiver.not_followed;
   if (beyond.empty())
-    return fmt::format("receiver: {} of {} objects have a bias {}{}{}", off, receiver.objects.size(), most,
+    return fmt::format("receiver: {} of {} {} a bias {}{}{}", off, objects, off == 1 ? "has" : "have", most,
                        limit, unsure);
-  return fmt::format("receiver: not followed by the reference: {}; {} of {} objects differ {}{}{}",
-                     told(beyond), off, receiver.objects.size(), most, limit, unsure);
+  return fmt::format("receiver: not followed by the reference: {}; {} of {} {} {}{}{}", told(beyond), off,
+                     objects, off == 1 ? "differs" : "differ", most, limit, unsure);
 }
 
 std::string recipe_finding(const Decomposition& scene, const std::vector<std::string>& not_followed) {

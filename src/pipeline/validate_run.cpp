@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/names.h"
+#include "base/text.h"
 #include "pipeline/compare.h"
 #include "pipeline/decompose.h"
 #include "pipeline/fit_camera.h"
@@ -93,8 +94,9 @@ class ValidateRun {
       trace(decomposed_, variant, fmt::format("tracing the recipe's faults up to {}", fault), steps);
     SplitStudy study;
     for (const Splitting& splitting : study_) {
-      steps.begin(fmt::format("study: {}, {} targets", splitting.name, splitting.list.targets.size()),
-                  study_weight);
+      steps.begin(
+          fmt::format("study: {}, {}", splitting.name, counted(splitting.list.targets.size(), "target")),
+          study_weight);
       study.points.push_back(study_point(base_, splitting, plan_, 64));
     }
     std::vector<ViewComparison> views;

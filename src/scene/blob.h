@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/json.h"
 
 #include <cstdint>
 #include <cstring>
@@ -11,28 +12,33 @@
 #include <type_traits>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 namespace rnmbake {
 
 /// Says whose an array is, for messages: "object 'Wall': ".
 using Owner = std::function<std::string()>;
 
-/// A number that counts or points: an integer, not negative. Throws nlohmann's exception like at() does.
-[[nodiscard]] inline std::size_t count_at(const nlohmann::json& entry, const char* key) {
-  const nlohmann::json& value = entry.at(key);
+/// A number that counts or points: an integer, not negative. `key` goes into the message.
+[[nodiscard]] inline std::size_t count_of(const nlohmann::json& value, const char* key) {
   if (value.is_number_unsigned()) return value.get<std::size_t>();
   if (!value.is_number_integer() || value.get<std::int64_t>() < 0)
-    fail(ExitCode::invalid_input, "'{}' is {}, which is no count", key, value.dump());
+    fail(ExitCode::invalid_input, "'{}' is {}, which is no count", key, brief(value));
   return static_cast<std::size_t>(value.get<std::int64_t>());
 }
 
+/// Throws nlohmann's exception where there is no such key, like at() does.
+[[nodiscard]] inline std::size_t count_at(const nlohmann::json& entry, const char* key) {
+  return count_of(entry.at(key), key);
+}
+
 /// An index; -1 stands for none. Too large ones become the largest, which is in no list.
-[[nodiscard]] inline int index_at(const nlohmann::json& entry, const char* key) {
-  const nlohmann::json& value = entry.at(key);
+[[nodiscard]] inline int index_of(const nlohmann::json& value, const char* key) {
   if (value.is_number_integer() && !value.is_number_unsigned() && value.get<std::int64_t>() == -1) return -1;
   constexpr std::size_t most = std::numeric_limits<int>::max();
-  return static_cast<int>(std::min(count_at(entry, key), most));
+  return static_cast<int>(std::min(count_of(value, key), most));
+}
+
+[[nodiscard]] inline int index_at(const nlohmann::json& entry, const char* key) {
+  return index_of(entry.at(key), key);
 }
 
 /// Cuts typed arrays out of bytes. Arrays do not share bytes, so all of them together are never larger.

@@ -1,9 +1,10 @@
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json.h"
+#include "base/read_file.h"
 #include "scene/exchange_parts.h"
+#include "scene/survey_parse.h"
 
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 namespace rnmbake {
@@ -27,15 +28,7 @@ static_assert(sizeof(Header) == 32);
 
 constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
 
-std::vector<char> read_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<char> bytes;
-  if (stream) bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || stream.bad()) fail(ExitCode::io, "{}: cannot be read", file.string());
-  return bytes;
-}
-
-Header read_header(const std::vector<char>& bytes, const std::string& name) {
+Header read_header(std::string_view bytes, const std::string& name) {
   Header header{};
   if (bytes.size() < sizeof(Header) + checksum_bytes ||
       std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
@@ -61,11 +54,11 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash64(bytes);
 }
 
-void check_checksum(const std::vector<char>& bytes, const std::string& name) {
+void check_checksum(std::string_view bytes, const std::string& name) {
   const std::size_t covered = bytes.size() - checksum_bytes;
   std::uint64_t promised = 0;
   std::memcpy(&promised, bytes.data() + covered, checksum_bytes);
-  if (checksum({bytes.data(), covered}) != promised) {
+  if (checksum(bytes.substr(0, covered)) != promised) {
     fail(ExitCode::invalid_input,
          "{}: its checksum is wrong, so it was damaged on its way; copy or export it again", name);
   }
@@ -77,36 +70,39 @@ Exchange named(const std::string& name, Parse parse) {
   try {
     return parse();
   } catch (const json::exception& error) {
-    fail(ExitCode::invalid_input, "{}: not a scene that this rnmbake can read: {}", name, error.what());
+    fail(ExitCode::invalid_input, "{}: not a scene that this rnmbake can read: {}", name, brief(error));
   } catch (const Error& error) {
     throw Error(error.code(), name + ": " + error.what());
   }
 }
 
-}  // namespace
-
-Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name) {
+Exchange parse(std::string_view bytes, const std::string& name) {
   const Header header = read_header(bytes, name);
   return named(name, [&] {
     const char* text = bytes.data() + sizeof(Header);
     Blob data(text + header.json_bytes, header.data_bytes);
-    return parse_exchange_content(json::parse(text, text + header.json_bytes), data);
+    return parse_exchange_content(parse_json({text, header.json_bytes}, "its description"), data);
   });
 }
 
+}  // namespace
+
+Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name) {
+  return parse({bytes.data(), bytes.size()}, name);
+}
+
 Exchange read_exchange(const fs::path& file) {
-  const std::vector<char> bytes = read_bytes(file);
+  const std::string bytes = read_data(file);
   (void)read_header(bytes, file.string());  // first, since it says more of a file that was cut off
   check_checksum(bytes, file.string());
-  return parse_exchange(bytes, file.string());
+  return parse(bytes, file.string());
 }
 
 Exchange read_exported(const fs::path& json_file) {
-  const std::vector<char> text = read_bytes(json_file);
+  const std::string text = read_text(json_file);
   return named(json_file.string(), [&] {
-    const json content = json::parse(text);
-    const std::vector<char> bytes =
-        read_bytes(json_file.parent_path() / content.at("data").get<std::string>());
+    const json content = parse_json(text, "its description");
+    const std::string bytes = read_data(data_file(content, json_file.parent_path()));
     if (bytes.size() != count_at(content, "data_bytes"))
       fail(ExitCode::invalid_input, "its data has {} bytes, {} were written; is the disk full?", bytes.size(),
            count_at(content, "data_bytes"));

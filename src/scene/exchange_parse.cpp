@@ -1,3 +1,4 @@
+#include "base/json.h"
 #include "scene/exchange_parts.h"
 #include "scene/survey_parse.h"
 
@@ -10,7 +11,7 @@ using nlohmann::json;
 
 Vec3 read_color(const json& values, const std::string& owner) {
   if (!values.is_array() || values.size() != 3)
-    fail(ExitCode::invalid_input, "{}: {} is no colour", owner, values.dump());
+    fail(ExitCode::invalid_input, "{}: {} is no colour", owner, brief(values));
   return {values.at(0).get<float>(), values.at(1).get<float>(), values.at(2).get<float>()};
 }
 
@@ -61,13 +62,13 @@ void read_looks(const json& content, Exchange& scene) {
   for (const json& entry : content.at("looks")) scene.looks.push_back(read_look(entry));
   for (const json& entry : content.at("object_looks")) {
     std::vector<int>& slots = scene.object_looks.emplace_back();
-    for (const json& look : entry) slots.push_back(index_at(json{{"look", look}}, "look"));
+    for (const json& look : entry) slots.push_back(index_of(look, "look"));
   }
   scene.unlit.assign(scene.survey.objects.size(), 0);
   for (const json& number : content.at("unlit")) {
-    const auto object = static_cast<std::size_t>(index_at(json{{"object", number}}, "object"));
+    const auto object = static_cast<std::size_t>(index_of(number, "object"));
     if (object >= scene.unlit.size())
-      fail(ExitCode::invalid_input, "unlit: there is no object {}", number.dump());
+      fail(ExitCode::invalid_input, "unlit: there is no object {}", brief(number));
     scene.unlit[object] = 1;
   }
 }

@@ -1,12 +1,14 @@
 #include "scene/survey.h"
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/json.h"
+#include "base/read_file.h"
+#include "base/text.h"
 #include "scene/survey_meshes.h"
 #include "scene/survey_parse.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -18,14 +20,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr int survey_format = 1;
-
-std::vector<char> read_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    fail(ExitCode::io, "{}: cannot be read; the survey of the scene is incomplete", file.string());
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 SceneObject read_object(const json& entry, std::size_t meshes) {
   SceneObject object;
@@ -96,7 +90,7 @@ void read_meshes(const json& content, Blob& data, Survey& survey) {
 }
 
 Survey read_content(const json& content, const fs::path& folder) {
-  const std::vector<char> data = read_bytes(folder / content.at("data").get<std::string>());
+  const std::string data = read_data(data_file(content, folder));
   if (data.size() != count_at(content, "data_bytes")) {
     fail(ExitCode::invalid_input, "{}: survey.bin has {} bytes, {} were written; is the disk full?",
          folder.string(), data.size(), count_at(content, "data_bytes"));
@@ -109,7 +103,7 @@ Survey read_content(const json& content, const fs::path& folder) {
 
 Mat44 read_matrix(const json& values, const std::string& owner) {
   if (values.size() != 16) {
-    fail(ExitCode::invalid_input, "{}: its matrix has {} numbers, not 16", owner, values.size());
+    fail(ExitCode::invalid_input, "{}: its matrix has {}, not 16", owner, counted(values.size(), "number"));
   }
   Mat44 matrix;  // Blender writes rows of a matrix that multiplies columns; Imath multiplies rows
   for (int row = 0; row < 4; ++row) {
@@ -125,7 +119,7 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
 Survey parse_survey(const json& content, Blob& data) {
   if (content.at("format") != survey_format || content.at("byte_order") != "little") {
     fail(ExitCode::unsupported, "written by scripts of another rnmbake (format {}, {} endian)",
-         content.at("format").dump(), content.at("byte_order").dump());
+         brief(content.at("format")), brief(content.at("byte_order")));
   }
   Survey survey;
   survey.scene_file = content.at("scene_file").get<std::string>();
@@ -144,13 +138,21 @@ Survey parse_survey(const json& content, Blob& data) {
   return survey;
 }
 
+fs::path data_file(const json& content, const fs::path& folder) {
+  const auto& name = content.at("data").get_ref<const std::string&>();
+  const auto file = file_inside(folder, name);
+  if (!file)
+    fail(ExitCode::invalid_input, "'data' is {}, which is no plain file name", brief(content["data"]));
+  return *file;
+}
+
 Survey read_survey(const fs::path& json_file) {
-  const std::vector<char> text = read_bytes(json_file);
+  const std::string text = read_text(json_file);
   try {
-    return read_content(json::parse(text), json_file.parent_path());
+    return read_content(parse_json(text, json_file.string()), json_file.parent_path());
   } catch (const json::exception& error) {
     fail(ExitCode::invalid_input, "{}: not a survey that this rnmbake can read: {}", json_file.string(),
-         error.what());
+         brief(error));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "scene/survey_meshes.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <cmath>
 #include <cstdint>
@@ -89,7 +90,8 @@ void check_mesh(const Mesh& mesh, const Owner& owner) {
   }
   const int layers = static_cast<int>(mesh.uv_layers.size());
   if (mesh.active_uv >= layers || mesh.render_uv >= layers) {
-    fail(ExitCode::invalid_input, "{}the active UV layer is not one of its {} layers", owner(), layers);
+    fail(ExitCode::invalid_input, "{}the active UV layer is not one of its {}", owner(),
+         counted(mesh.uv_layers.size(), "layer"));
   }
 }
 

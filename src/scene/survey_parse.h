@@ -4,10 +4,16 @@
 #include "scene/blob.h"
 #include "scene/survey.h"
 
+#include <filesystem>
+
 namespace rnmbake {
 
 /// Checks as read_survey() does, the format's number included. Throws nlohmann's exceptions, too.
 [[nodiscard]] Survey parse_survey(const nlohmann::json& content, Blob& data);
+
+/// The binary part that `content` names; beside it, and nowhere else.
+[[nodiscard]] std::filesystem::path data_file(const nlohmann::json& content,
+                                              const std::filesystem::path& folder);
 
 /// The 16 numbers of Blender's matrix, row by row, for column vectors. `owner`: "light 'Lamp'".
 [[nodiscard]] Mat44 read_matrix(const nlohmann::json& values, const std::string& owner);

@@ -11,10 +11,10 @@ namespace rnmbake {
 
 struct HeightOptions {
   std::string channel;  // name, "red" .. "alpha", "luminance", or number from 0; empty: luminance of R, G, B,
-                        // else the first
+                        // else the only one beside alpha
   bool invert = false;  // depths: what is far is low
   /// Texels that a value of 1 is high: the full range of integer formats, and what floats are multiplied
-  /// with. None given: a 32nd of the width for integers, 1 for floats.
+  /// with. None given: sqrt(width height) / 32 for integers, 1 for floats.
   std::optional<double> texels;
   Beyond x = Beyond::wrap, y = Beyond::wrap;
 };
@@ -28,8 +28,8 @@ struct ReadHeights {
 };
 
 /// Reads a few rows at a time, so that only the heights stay in memory. Throws Error(usage) for a channel
-/// that the file does not have, naming those that it has; Error(invalid_input), naming the texel, for NaN and
-/// infinity; and as PictureReader.
+/// that the file does not have, naming those that it has; Error(invalid_input) where the names do not say
+/// which channel it is, and for NaN and infinity, naming the texel; and as PictureReader.
 [[nodiscard]] ReadHeights read_heights(const std::filesystem::path& file, const HeightOptions& options);
 
 }  // namespace rnmbake

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/leftovers.h"
 #include "base/owner.h"
+#include "base/read_file.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -30,6 +31,33 @@ std::string message_of(const std::function<void()>& action) {
   }
   ADD_FAILURE() << "nothing was thrown";
   return "";
+}
+
+TEST(ReadText, TakesRegularFilesOfALimitedSizeOnly) {
+  const TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe", large = folder.path() / "large";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::ofstream(large).put('x');
+  fs::resize_file(large, (std::uintmax_t{1} << 32) + 1);
+  for (const fs::path& path : {pipe, fs::path("/dev/zero")}) {
+    const std::string said = message_of([&] { (void)read_text(path); });
+    EXPECT_NE(said.find(path.string() + ": it is a pipe, a device or a socket"), std::string::npos) << said;
+    EXPECT_EQ(read_tail(path, 100), "");
+    EXPECT_EQ(read_part(path, 0, 100), "");
+  }
+  EXPECT_NE(message_of([&] { (void)read_text(folder.path()); }).find("it is a folder"), std::string::npos);
+  EXPECT_NE(message_of([&] { (void)read_text(large); }).find("4294967297 bytes"), std::string::npos);
+  EXPECT_EQ(read_part(large, std::uintmax_t{1} << 32, 100), std::string(1, '\0'));
+  EXPECT_EQ(read_part(large, 0, 1), "x");
+}
+
+TEST(FileInside, NamesNeverLeadElsewhere) {
+  EXPECT_EQ(file_inside("a", "b.exr"), fs::path("a/b.exr"));
+  for (const std::string& name :
+       {std::string(), std::string("."), std::string(".."), std::string("../x"), std::string("/x"),
+        std::string("x/y"), std::string("x\0.exr", 6), std::string("x\ny")}) {
+    EXPECT_FALSE(file_inside("a", name)) << name;
+  }
 }
 
 TEST(WriteAtomically, ReplacesTheFileAndLeavesNothingElse) {

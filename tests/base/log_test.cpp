@@ -20,6 +20,14 @@ TEST(Log, JsonSurvivesAnyMessage) {
   EXPECT_EQ(line.find('\n'), std::string::npos);
 }
 
+TEST(Log, NamesDoNotSteerTheTerminal) {
+  EXPECT_EQ(log::format_line(log::Format::text, log::Level::info, "a\033]0;x\a\nb", false),
+            "rnmbake: a\\x1b]0;x\\x07\\x0ab");
+  EXPECT_EQ(log::format_line(log::Format::text, log::Level::debug, "a\nb", false), "rnmbake: debug: a\nb");
+  const std::string line = log::format_line(log::Format::jsonl, log::Level::info, "a\xff\033", false);
+  EXPECT_NE(line.find("a\xEF\xBF\xBD\\u001b"), std::string::npos) << line;
+}
+
 TEST(Log, QuietKeepsErrors) {
   log::init(-1, log::Format::text);
   testing::internal::CaptureStderr();

@@ -50,6 +50,22 @@ flip_green = true
   EXPECT_EQ(value(project, "flip_green"), SettingValue(true));
 }
 
+TEST(ProjectFile, KeysOfManyPartsAreRefusedBeforeTheyAreNested) {
+  std::string deep = "a";
+  for (int i = 0; i < 100000; ++i) deep += ".a";
+  for (const std::string& text :
+       {"\n" + deep + " = 1\n", "\n[" + deep + "]\n", "\n[[" + deep + "]]\n", "\na = {" + deep + " = 1}\n",
+        "\n'x'.\"=\"." + deep + " = 1\n", "#\n" + deep + " = 1\n"}) {
+    const std::string said = refusal(text);
+    EXPECT_EQ(said.rfind("some/project.toml:2: a key of more than", 0), 0U) << said.substr(0, 200);
+  }
+  EXPECT_NE(refusal("a = " + std::string(100000, '[')).find("not TOML"), std::string::npos);
+  const std::string dots(20, '.');
+  EXPECT_EQ(refusal("[scene] # " + dots + "\nfile = '" + dots + "'\nobjects = [\"" + dots + "\\\"" + dots +
+                    "\", '''" + dots + "''''']\n"),
+            "accepted");
+}
+
 TEST(ProjectFile, ValuesKnowTheirLine) {
   const ProjectFile project = parse_project("[bake]\n\nsamples = 3\n", "dir/project.toml");
   ASSERT_EQ(project.values.size(), 1U);
@@ -153,7 +169,7 @@ TEST(ProjectFile, AMissingOneIsAnIoError) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::io);
     EXPECT_STREQ(error.what(),
-                 "/nonexistent/project.toml: cannot be read (No such file or directory); check the path");
+                 "cannot read /nonexistent/project.toml: No such file or directory; check the path");
   }
 }
 

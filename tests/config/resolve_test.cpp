@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "config/document.h"
 #include "config/value.h"
+#include "config/variables.h"
 
 #include <fstream>
 #include <functional>
@@ -216,6 +217,18 @@ TEST(Resolve, TheReferenceInTheDocsIsTheTable) {
   ASSERT_NE(to, std::string::npos);
   EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), settings_reference())
       << "replace the section by what `rnmbake bake --print-settings-doc` prints";
+}
+
+TEST(Environment, AMistypedVariableIsNamed) {
+  EXPECT_NO_THROW(refuse_unknown_variables({"PATH", "RNMBAKE", "RNMBAKE_SAMPLES", "RNMBAKE_CHROMIUM"}));
+  try {
+    refuse_unknown_variables({"HOME", "RNMBAKE_SAMPELS"});
+    FAIL() << "it was ignored";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("RNMBAKE_SAMPELS"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("'RNMBAKE_SAMPLES'"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ FOREIGN_FLAGS = {
 }
 HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation
 
+SCENE_OPS = ROOT / "blender_scripts" / "scene_ops"
+
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CALL = re.compile(r"\brnmbake ([a-z]+)\b(.*)")
@@ -73,6 +75,10 @@ def commands_in(text):
     return re.findall(r"^  ([a-z-]+) ", listed.split("Examples:")[0], flags=re.MULTILINE)
 
 
+def load_text(path):
+    return path.read_text(encoding="utf-8")
+
+
 def load(path):
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
@@ -97,6 +103,18 @@ class Documentation(unittest.TestCase):
         overview = self.help_of()
         common = flags_in(overview) | HIDDEN_FLAGS
         return {name: common | self.flags_below(name) for name in commands_in(overview)}
+
+    def test_words_for_materials_and_lights_are_explained(self):
+        """Whatever a report may say is outside the model is in the table of docs/inspect.md."""
+        describe = load_text(SCENE_OPS / "describe.py")
+        notes = load_text(SCENE_OPS / "export_notes.py")
+        words = set(re.findall(r'(?:yield|outside\.add\(|NotCarried\()\s*"([^"]+)"', describe + notes))
+        words |= set(re.findall(r'^    "[A-Z_]+": "([^"]+)"', describe, flags=re.MULTILINE))
+        words |= set(re.findall(r'^    "([a-z ]+)": \(', describe, flags=re.MULTILINE))
+        self.assertGreater(len(words), 30)
+        explained = load_text(ROOT / "docs" / "inspect.md")
+        self.assertEqual([word for word in sorted(words) if f"`{word}`" not in explained], [],
+                         "explain them in docs/inspect.md under The words")
 
     def test_links_lead_somewhere(self):
         for page in pages():

@@ -84,6 +84,17 @@ TEST(Pictures, AlphaOfAPngDoesNotChangeItsColours) {
   EXPECT_NEAR(at(1, 1, 2), 30, 1e-3);
 }
 
+TEST(Pictures, AlphaComesBehindVectorsToo) {
+  const TempFolder folder;
+  LayeredImage image;
+  image.layers.push_back({"", {"X", "Y", "Z", "A"}, FloatImage(1, 1, 4)});
+  image.layers[0].pixels.data() = {0.6F, 0, 0.8F, 1};
+  write_exr(folder.path() / "n.exr", image, Depth::full);
+  const LayeredImage read = read_image(folder.path() / "n.exr");
+  EXPECT_EQ(read.layers[0].channels, (std::vector<std::string>{"X", "Y", "Z", "A"}));
+  EXPECT_EQ(read.layers[0].pixels.data(), image.layers[0].pixels.data());
+}
+
 TEST(Pictures, TruncatedPngAndJpegAreRefused) {
   const TempFolder folder;
   EXPECT_NO_THROW((void)read_image(stored(folder, "whole.jpg", kJpeg)));

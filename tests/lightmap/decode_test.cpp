@@ -173,6 +173,37 @@ TEST(NormalsOf, EightBitPicturesAreUnpackedAndRenormalised) {
               raw.normalized());
 }
 
+TEST(NormalsOf, ChannelsCountByName) {
+  expect_near(first_texel(normals_of(picture({"X", "Y", "Z", "A"}, {0.6F, 0, 0.8F, 1}), "n")),
+              {0.6F, 0, 0.8F});
+  expect_near(first_texel(normals_of(picture({"A", "X", "Y", "Z"}, {1, 0.6F, 0, 0.8F}), "n")),
+              {0.6F, 0, 0.8F});
+  expect_near(first_texel(normals_of(picture({"A", "B", "G", "R"}, {0, 0.9F, 0.5F, 0.8F}), "n")),
+              {0.6F, 0, 0.8F});
+  LayeredImage render = picture({"R", "G", "B"}, {0.5F, 0.5F, 0.5F});
+  render.layers.push_back(picture({"X", "Y", "Z"}, {0.6F, 0, 0.8F}).layers[0]);
+  render.layers[1].name = "View Layer.Normal";
+  expect_near(first_texel(normals_of(render, "n")), {0.6F, 0, 0.8F});
+  LayeredImage eyes = render;
+  eyes.layers[0] = eyes.layers[1];
+  eyes.layers[0].name = "left.Normal";
+  try {
+    (void)normals_of(eyes, "n.exr");
+    FAIL() << "one of two was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("left.Normal (X, Y, Z), View Layer.Normal (X, Y, Z)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(LightmapOf, AlphaThatAnotherProgramAddedIsLeftOut) {
+  const Lightmap map = lightmap_of(picture({"R", "G", "B", "A"}, {1, 2, 3, 0.5F}), {});
+  ASSERT_FALSE(map.flat.empty());
+  expect_near(first_texel(map.flat), {1, 2, 3});
+  EXPECT_TRUE(lightmap_of(picture({"X", "Y", "Z"}, {1, 2, 3}), {}).flat.empty());
+}
+
 TEST(NormalsOf, TwoChannelsSignedOnesAndNothing) {
   expect_near(first_texel(normals_of(picture({"R", "G"}, {0.8F, 0.5F}), "n")), {0.6F, 0, 0.8F});
   expect_near(first_texel(normals_of(picture({"X", "Y", "Z"}, {0.6F, 0, 0.8F}), "n")), {0.6F, 0, 0.8F});
@@ -180,6 +211,7 @@ TEST(NormalsOf, TwoChannelsSignedOnesAndNothing) {
   expect_near(first_texel(normals_of(picture({"R", "G", "B"}, {0.5F, 0.5F, 0.5F}), "n")), {0, 0, 1});
   EXPECT_THROW((void)normals_of(picture({"Y"}, {0.5F}), "n"), Error);
   EXPECT_THROW((void)normals_of(picture({"Y", "A"}, {0.5F, 1}), "n"), Error);
+  EXPECT_THROW((void)normals_of(picture({"A", "Y"}, {1, 0.5F}), "n"), Error) << "as read_image() has it";
 }
 
 }  // namespace

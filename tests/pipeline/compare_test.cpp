@@ -72,7 +72,8 @@ class Compare : public testing::Test {
       write_exr(at(name) / file, lightmap_of(lightmap), Depth::full);
       objects.push_back({{"key", lightmap.key}, {"files", {file}}, {"status", "baked"}});
     }
-    write_atomically(at(name) / "manifest.json", nlohmann::json{{"objects", objects}}.dump());
+    write_atomically(at(name) / "manifest.json",
+                     nlohmann::json{{"schema_version", 1}, {"objects", objects}}.dump());
     return {at(name), {}, {}};
   }
 
@@ -150,7 +151,8 @@ TEST_F(Compare, OneFileForEachLayerIsTheSame) {
     write_exr(at("split") / files.back().get<std::string>(), part.image, Depth::full);
   }
   const nlohmann::json object{{"key", "floor"}, {"files", files}};
-  write_atomically(at("split") / "manifest.json", nlohmann::json{{"objects", {object}}}.dump());
+  write_atomically(at("split") / "manifest.json",
+                   nlohmann::json{{"schema_version", 1}, {"objects", {object}}}.dump());
   const Report report = compare_lightmaps({{at("split"), {}, {}}, b});
   ASSERT_EQ(report.objects[0].bases.size(), 4U);
   EXPECT_NEAR(report.objects[0].bases[3].metrics.relative_bias.value, 0.25, 1e-6);
@@ -244,17 +246,23 @@ TEST_F(Compare, RefusesWhatIsNoOutputOfOurs) {
   const std::vector<std::string> broken{
       "no json",
       "[]",
-      "{\"objects\": 3}",
-      "{\"objects\": [{\"key\": 1, \"files\": []}]}",
-      R"({"objects": [{"key": "floor", "files": ["../a/floor.exr"]}]})",
-      R"({"objects": [{"key": "x", "files": ["x.exr"]}, {"key": "x", "files": ["x.exr"]}]})"};
+      "{\"objects\": []}",
+      std::string(100000, '[') + std::string(100000, ']'),
+      "{\"schema_version\": 1, \"objects\": 3}",
+      "{\"schema_version\": 1, \"objects\": [{\"key\": 1, \"files\": []}]}",
+      R"({"schema_version": 1, "objects": [{"key": "floor", "files": ["../a/floor.exr"]}]})",
+      R"({"schema_version": 1, "objects": [{"key": "floor", "files": ["floor.exr\u0000.png"]}]})",
+      R"({"schema_version": 1, "objects": [{"key": "x", "files": ["x.exr"]}, {"key": "x", "files": ["x.exr"]}]})"};
   for (const std::string& text : broken) {
     write_atomically(at("empty") / "manifest.json", text);
     expect_refused({a, {at("empty"), {}, {}}}, ExitCode::invalid_input, {"manifest.json"});
   }
   write_atomically(at("empty") / "manifest.json",
-                   R"({"objects": [{"key": "floor", "files": ["gone.exr"]}]})");
+                   R"({"schema_version": 1, "objects": [{"key": "floor", "files": ["gone.exr"]}]})");
   expect_refused({a, {at("empty"), {}, {}}}, ExitCode::io, {"gone.exr"});
+  write_atomically(at("empty") / "manifest.json", R"({"schema_version": 99, "objects": []})");
+  expect_refused({a, {at("empty"), {}, {}}}, ExitCode::unsupported,
+                 {"manifest.json", "schema_version is 99"});
 }
 
 TEST_F(Compare, TellsWhatTheReferenceCouldNotFollow) {

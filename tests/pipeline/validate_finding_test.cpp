@@ -40,7 +40,7 @@ TEST(ValidateFinding, WhatIsTooNoisyToTellIsNoBiasAndIsCounted) {
   noisy.bases.front().metrics.too_noisy = true;
   const std::string said = receiver_finding(report({object("b", statistic(0, 0.001)), noisy}));
   EXPECT_EQ(said.rfind("receiver: no bias beyond the noise", 0), 0U) << said;
-  EXPECT_TRUE(said.ends_with("; 1 of 2 objects are too noisy to tell, bake with more samples")) << said;
+  EXPECT_TRUE(said.ends_with("; 1 of 2 objects is too noisy to tell, bake with more samples")) << said;
 }
 
 TEST(ValidateFinding, NamesTheWorstObject) {

@@ -58,12 +58,63 @@ TEST_F(Heights, ComeFromTheChannelThatIsNamed) {
   EXPECT_EQ(read_heights(file, channel("alpha")).channel, "A");
 }
 
-TEST_F(Heights, OfFloatsAreTexelsAndOfIntegersAShareOfTheWidth) {
+TEST_F(Heights, AreFoundByTheChannelsNames) {
+  const auto values = [](std::size_t channels) {
+    std::vector<float> list(2 * channels);
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = float(i) / 16;
+    return list;
+  };
+  const auto read = [&](const char* name, const std::vector<std::string>& channels) {
+    return read_heights(write(name, channels, Storage::full, values(channels.size()), 2), {}).channel;
+  };
+  EXPECT_EQ(read("a.exr", {"Y", "A"}), "Y");
+  EXPECT_EQ(read("b.exr", {"A", "height"}), "height");
+  EXPECT_EQ(read("c.exr", {"R", "G", "B", "A", "Z"}), "luminance");
+  EXPECT_EQ(read("d.exr", {"diffuse.R", "diffuse.G", "diffuse.B"}), "luminance");
+  for (const std::vector<std::string>& channels :
+       {std::vector<std::string>{"X", "Y", "Z"},
+        {"height", "mask"},
+        {"left.R", "left.G", "left.B", "right.R", "right.G", "right.B"}}) {
+    const auto file = write("e.exr", channels, Storage::full, values(channels.size()), 2);
+    const std::string said = refusal(file, {}, ExitCode::invalid_input);
+    EXPECT_NE(said.find("--channel"), std::string::npos) << said;
+    EXPECT_NE(said.find(channels[0].substr(0, 4)), std::string::npos) << said;
+    EXPECT_EQ(read_heights(file, channel(channels[1].c_str())).channel, channels[1]);
+  }
+}
+
+TEST_F(Heights, OfAStripAreThoseOfASquareOfAsManyTexels) {
+  const std::vector<float> ramp(64 * 4, 0.5F);
+  for (const int width : {4, 16, 64}) {
+    const auto file = write("a.tif", {"Y"}, Storage::u16, ramp, width);
+    EXPECT_DOUBLE_EQ(read_heights(file, {}).texels, 16 / 32.0) << width;
+  }
+}
+
+TEST_F(Heights, OfTwelveBitsInSixteenAreSaid) {
+  const auto said = [&](float highest, Storage storage, HeightOptions options = {}) {
+    const auto file = write("a.tif", {"Y"}, storage, std::vector<float>{0, highest}, 2);
+    testing::internal::CaptureStderr();
+    (void)read_heights(file, options);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string twelve = said(4095 / 65535.0F, Storage::u16);
+  EXPECT_NE(twelve.find("no value above 4095 of 65535, as of 12 bits"), std::string::npos) << twelve;
+  EXPECT_NE(twelve.find("--height 0.7071 "), std::string::npos) << "sqrt(2) / 32 x 65535 / 4095: " << twelve;
+  EXPECT_NE(said(1023 / 65535.0F, Storage::u16).find("as of 10 bits"), std::string::npos);
+  EXPECT_EQ(said(4096 / 65535.0F, Storage::u16), "");
+  EXPECT_EQ(said(4095 / 65535.0F, Storage::full), "");
+  HeightOptions chosen;
+  chosen.texels = 3;
+  EXPECT_EQ(said(4095 / 65535.0F, Storage::u16, chosen), "");
+}
+
+TEST_F(Heights, OfFloatsAreTexelsAndOfIntegersAShareOfTheSize) {
   const std::vector<float> ramp{0, 0.25F, 0.5F, 1};
   const auto floats = write("a.exr", {"Y"}, Storage::full, ramp, 4);
   const auto integers = write("a.tif", {"Y"}, Storage::u16, ramp, 4);
   EXPECT_FLOAT_EQ(read_heights(floats, {}).field.heights.texel(3, 0)[0], 1);
-  EXPECT_FLOAT_EQ(read_heights(integers, {}).field.heights.texel(3, 0)[0], 4.0F / 32);
+  EXPECT_FLOAT_EQ(read_heights(integers, {}).field.heights.texel(3, 0)[0], 2.0F / 32);
   HeightOptions options;
   options.invert = true;
   options.texels = 8;

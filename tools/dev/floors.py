@@ -25,7 +25,8 @@ OWNED = {
     "tbb/": {"trace", "ssbump"},
     "hwy/": {"ssbump"},
     "xxhash.h": {"base"},
-    "zlib.h": {"report"},
+    "zlib.h": {"report", "blender"},
+    "zstd.h": {"blender"},
 }
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 IMPORT_BPY = re.compile(r"\s*(import|from)\s+(bpy|mathutils|bmesh)\b")

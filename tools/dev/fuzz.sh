@@ -1,8 +1,8 @@
-# fuzz.sh - broken scene files for the reader of .rnmscene, broken pictures and flags for ssbump. Sourced by ./dev.
+# fuzz.sh - broken scene files, pictures, project files and results of launches for their readers. Sourced by ./dev.
 
 fuzz() {
   local target=exchange
-  case "${1:-}" in exchange | ssbump) target=$1 && shift ;; esac
+  case "${1:-}" in exchange | ssbump | project | launch) target=$1 && shift ;; esac
   local seconds=${1:-600} folder=build/fuzz allocation=256
   [[ $target == ssbump ]] && allocation=2048 # the system's readers believe what a header promises
   require "${build_packages[@]}" clang libclang-rt-14-dev

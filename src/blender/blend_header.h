@@ -1,0 +1,28 @@
+// blender/blend_header.h - which Blender saved a .blend, read from its first bytes.
+#pragma once
+
+#include "blender/probe.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rnmbake {
+
+/// Version of the file's format: that of the Blender that saved it, without the patch.
+struct BlendHeader {
+  int major = 0, minor = 0;
+};
+
+/// Of plain and compressed files (zstd; gzip before 3.0); nullopt where they do not begin as a .blend does.
+/// Throws Error(io) where the file cannot be read.
+[[nodiscard]] std::optional<BlendHeader> read_blend_header(const std::filesystem::path& file);
+
+/// Why this Blender cannot read a file of that version, with the remedy; empty where it may.
+[[nodiscard]] std::string unreadable_blend(const std::filesystem::path& file, const BlenderInfo& blender);
+
+/// "hall.blend was saved by Blender 4.3, this is 3.4.1; ..." with the remedy, where the file is newer; else
+/// empty. Blender opens many such files and leaves out what it does not know, and crashes over others.
+[[nodiscard]] std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender);
+
+}  // namespace rnmbake
