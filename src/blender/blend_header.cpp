@@ -96,6 +96,8 @@ std::string unreadable_blend(const std::filesystem::path& file, const BlenderInf
 }
 
 std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return "";  // whoever opens it says so
   const auto header = read_blend_header(file);
   if (!header || !is_newer(*header, blender.version)) return "";
   return saved_by(file, *header, blender) +
