@@ -37,6 +37,14 @@ def new_material(name, shader, **inputs):
     return material
 
 
+def new_sky(value):
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (value, value, value, 1)
+    return world
+
+
 def add(make, material, **options):
     make(**options)
     ob = bpy.context.object
@@ -76,8 +84,7 @@ def build():
         bpy.context.object.data.energy = energy
     bpy.ops.object.camera_add(location=(0, -5, 2), rotation=(1.2, 0, 0))
     scene.camera = bpy.context.object
-    scene.world = bpy.data.worlds.new("sky")
-    scene.world.use_nodes = True
+    scene.world = new_sky(1)
     background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
     sky = scene.world.node_tree.nodes.new("ShaderNodeTexChecker")
     scene.world.node_tree.links.new(sky.outputs[0], background.inputs[0])
@@ -157,12 +164,9 @@ def overridden():
     rough and Principled, which is not Lambertian in every Blender. The world is overridden, too."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     layer = bpy.context.view_layer
-    scene_world, black = bpy.data.worlds.new("white"), bpy.data.worlds.new("black")
-    scene_world.color, black.color = (1, 1, 1), (0, 0, 0)
+    bpy.context.scene.world = new_sky(0)
     if hasattr(layer, "world_override"):  # newer Blenders
-        bpy.context.scene.world, layer.world_override = scene_world, black
-    else:
-        bpy.context.scene.world = black
+        bpy.context.scene.world, layer.world_override = new_sky(1), new_sky(0)
     bpy.ops.mesh.primitive_plane_add()
     bpy.ops.object.light_add(type="SUN", rotation=(0, math.radians(75), 0))
     bpy.context.object.data.energy, bpy.context.object.data.angle = math.pi, 0
@@ -172,8 +176,7 @@ def overridden():
 def displaced():
     """A plane that Cycles raises, made of two squares by a modifier, under a sky of 1: E/pi is 1 all over it."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.context.scene.world = bpy.data.worlds.new("white")
-    bpy.context.scene.world.color = (1, 1, 1)
+    bpy.context.scene.world = new_sky(1)
     material = new_material("raised", "ShaderNodeBsdfDiffuse", Color=(.5, .5, .5, 1))
     owner = material if hasattr(material, "displacement_method") else material.cycles  # before 4.1
     owner.displacement_method = "BOTH"
@@ -194,6 +197,7 @@ def main(folder):
     scene = build()
     save(folder, "clean.blend")
     clean = measured(scene)
+    scene = build()
     if make_hostile(scene) < 100:
         raise RuntimeError("hardly any setting was found")
     save(folder, "hostile.blend")
