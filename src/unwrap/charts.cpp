@@ -96,7 +96,7 @@ std::vector<Vec3d> scaled_positions(const Mesh& mesh, const Mat44& to_world) {
   positions.reserve(mesh.positions.size());
   for (const Vec3& position : mesh.positions) {
     Vec3d scaled;
-    to_world.multDirMatrix(Vec3d(position - mesh.positions.front()), scaled);
+    to_world.multDirMatrix(Vec3d(position) - Vec3d(mesh.positions.front()), scaled);
     positions.push_back(scaled);
   }
   return positions;
