@@ -75,7 +75,7 @@ std::string told(const std::vector<std::string>& not_followed) {
 
 std::string told(const BounceLimit& limit) {
   if (limit.bounces < 0 || std::abs(limit.relative_bias.value) < worth_telling) return "";
-  return fmt::format(", but for the bounce limit of {}, which costs {:+.1f} %", limit.bounces,
+  return fmt::format("; the bounce limit of {} costs {:+.1f} %", limit.bounces,
                      100 * limit.relative_bias.value);
 }
 

@@ -44,11 +44,6 @@ std::vector<std::string> scope_notes(const Exchange& scene) {
   for (const std::string& line : not_followed(scene))
     notes.push_back("Not followed by the reference: " + line +
                     ". Where it matters a difference is no error of the bake.");
-  for (const OutsideModel& outside : scene.outside) {
-    if (outside.owner.starts_with("object ") || !outside.untraced.empty()) continue;  // said already
-    notes.push_back(
-        fmt::format("{}: outside the reference's model: {}", outside.owner, fmt::join(outside.what, ", ")));
-  }
   return notes;
 }
 

@@ -14,7 +14,7 @@ namespace rnmbake {
 /// may reach any object.
 [[nodiscard]] std::vector<std::string> not_followed(const Exchange& scene);
 
-/// Lines for a report: everything outside the model that is no object's own.
+/// The same as lines for a report.
 [[nodiscard]] std::vector<std::string> scope_notes(const Exchange& scene);
 
 /// Whether more than a ten-thousandth of the light of a closed room of the scene's brightest surface is left
