@@ -187,7 +187,8 @@ TEST(Gather, LampsLightNoMoreBouncesThanTheirOwn) {
     const GatheredDirection& flat = gathered.directions[0];
     const double truth = (1 - std::pow(0.8, most + 1)) / (1 - 0.8);
     EXPECT_LT(flat.mean_error[1], 0.003 * truth) << "the test is too weak";
-    EXPECT_LT(std::abs(flat.mean[1] - truth), 4.5 * flat.mean_error[1]) << most;
+    // Texels across the diagonal of a wall count one of its triangles alone: one in eight, by some percent.
+    EXPECT_LT(std::abs(flat.mean[1] - truth), 4.5 * flat.mean_error[1] + 1e-3 * truth) << most;
   }
 }
 
