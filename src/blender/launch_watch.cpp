@@ -29,7 +29,8 @@ bool LaunchWatch::poll() {
   progressed |= log_.poll();
   if (log_.event() == heard_) go_on_with_last();
   if (on_progress_) on_progress_(last_);
-  return progressed;
+  // A Cycles that cannot speak at all is given the benefit of the doubt while it bakes.
+  return progressed || (begun_.samples > 0 && !log_.hears_cycles());
 }
 
 /// A script that says the same for ever gets nowhere.

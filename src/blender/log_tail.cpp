@@ -49,6 +49,11 @@ std::string status_in(std::string_view line) {
   return status;
 }
 
+/// "I1128 16:48:38.035966 12369 svm.cpp:149] ...", from 5.0 on "00:10.376  cycles           | ...".
+bool is_of_cycles(std::string_view line) {
+  return line.find(".cpp:") != std::string_view::npos || line.find(" cycles ") != std::string_view::npos;
+}
+
 /// The C library's words, and Cycles' when it moves the tiles of a large picture to the disk.
 bool is_about_room(std::string_view line) {
   const auto says = [&](std::string_view words) { return line.find(words) != std::string_view::npos; };
@@ -95,11 +100,13 @@ bool LogTail::read_line(std::string_view line) {
   if (line.starts_with(event_sign)) {
     event_ = static_cast<int>(number_after(line, event_sign).value_or(0));
     samples_ = 0;
+    hears_cycles_ = false;
     doing_.clear();
     said_.clear();
     return false;  // the event itself is
   }
   if (is_about_room(line)) ran_out_of_room_ = true;
+  if (is_of_cycles(line)) hears_cycles_ = true;
   if (const auto samples = samples_in(line)) {
     samples_ += *samples;
     return true;

@@ -24,6 +24,10 @@ class LogTail {
   /// finished, with a picture half there.
   [[nodiscard]] bool ran_out_of_room() const { return ran_out_of_room_; }
 
+  /// Whether Cycles has said anything since the last event, as it does while it still prepares a bake. Not
+  /// every build of it can.
+  [[nodiscard]] bool hears_cycles() const { return hears_cycles_; }
+
   /// The last event that the output speaks of; 0: none yet.
   [[nodiscard]] int event() const { return event_; }
   /// Samples that Cycles has taken of its picture (of all tiles of a large one together).
@@ -41,7 +45,7 @@ class LogTail {
   std::string rest_;  // the beginning of a line whose end has not been written yet
   int event_ = 0;
   double samples_ = 0;
-  bool ran_out_of_room_ = false, progressed_ = false;
+  bool ran_out_of_room_ = false, progressed_ = false, hears_cycles_ = false;
   std::string doing_;
   std::unordered_set<std::size_t> said_;
 };

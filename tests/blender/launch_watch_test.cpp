@@ -77,6 +77,16 @@ TEST(LaunchWatch, UnderstandsBlender5) {
   EXPECT_EQ(running.watch.last().done, 0.5);
 }
 
+TEST(LaunchWatch, ACyclesThatIsMuteIsTrustedWhileItBakes) {
+  Running running;
+  running.begin(1, R"({"phase":"bake","what":"a","done":0,"until":1,"total":1,"samples":64})");
+  running.watch.poll();
+  EXPECT_TRUE(running.watch.poll());
+  running.print("00:10.376  cycles           | Using AVX2 CPU kernels.");
+  EXPECT_TRUE(running.watch.poll());
+  EXPECT_FALSE(running.watch.poll()) << "it can speak, and says nothing";
+}
+
 TEST(LaunchWatch, HearsOfAFullDisk) {
   Running running;
   running.print("all is well");
@@ -117,6 +127,7 @@ TEST(LaunchWatch, RepetitionIsNoProgress) {
 TEST(LaunchWatch, TakesWholeLinesOnly) {
   Running running;
   running.begin(1, R"({"phase":"bake","what":"a","done":0,"until":64,"total":64,"samples":64})");
+  running.print("I1128 16:48:38.061550 12369 svm.cpp:149] Shader manager updated 7 shaders in 0.16 seconds.");
   running.watch.poll();
   running.log << first_sample.substr(0, 60) << std::flush;
   EXPECT_FALSE(running.watch.poll());
