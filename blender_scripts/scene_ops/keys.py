@@ -3,7 +3,7 @@ import bpy
 
 NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
 
-# On objects that stand for a surface of the user's scene (lambert_scene.py): the key and name that it has there.
+# On objects that stand for a surface of the user's scene (lambert_scene.py, saved_scene.py): its key and name there.
 KEY_PROPERTY, NAME_PROPERTY = "rnmbake key", "rnmbake name"
 LABEL_PROPERTY = "rnmbake material"  # on materials, likewise
 
@@ -28,9 +28,8 @@ class Keys:
         """The object's name; instancer/name#n for instances, and wherever a library repeats a name."""
         original = instance.object.original
         instancer = instancer_of(instance)
-        if KEY_PROPERTY in original:
-            return original[KEY_PROPERTY]
-        key = f"{instancer}/{original.name_full}" if instancer else original.name
+        own = original.get(KEY_PROPERTY, original.name)  # a copy that the user made of such an object has it, too
+        key = f"{instancer}/{original.name_full}" if instancer else own
         if instancer or key in self._given:
             number = self._next.get(key, 0)
             while f"{key}#{number}" in self._given:

@@ -3,6 +3,7 @@ import bpy
 
 from core.task import Refusal
 from scene_ops import light_linking
+from scene_ops.instance_values import attributes_by_host, values_of
 from scene_ops.keys import Keys, instancer_of, shown_surfaces
 from scene_ops.lambert_collect import Shown, copy_mesh
 from scene_ops.names import fitting
@@ -59,11 +60,12 @@ def collect(is_wanted):
     """A Shown, with its mesh as evaluated, for each surface that is_wanted(key, instance), and for all else that its
     object makes. Objects that share evaluated data share the mesh."""
     shown = []
-    with_render_depsgraph(lambda depsgraph: shown.extend(_collect(depsgraph, is_wanted)))
+    by_host = attributes_by_host()
+    with_render_depsgraph(lambda depsgraph: shown.extend(_collect(depsgraph, is_wanted, by_host)))
     return shown
 
 
-def _collect(depsgraph, is_wanted):
+def _collect(depsgraph, is_wanted, by_host):
     names, owners, surfaces = Keys(), set(), []
     for instance in shown_surfaces(depsgraph):
         key, owner = names.new(instance), owner_of(instance)
@@ -78,7 +80,7 @@ def _collect(depsgraph, is_wanted):
         data = instance.object.data.as_pointer()
         if data not in meshes:
             meshes[data] = copy_mesh(instance.object)  # the render depsgraph keeps all UV layers
-        item.data = meshes[data]
+        item.data, item.values = meshes[data], values_of(instance, by_host)
         item.materials = [slot.material.original if slot.material else None for slot in instance.object.material_slots]
         yield item
 
@@ -106,11 +108,13 @@ def make_object(item):
 
 
 def keep_flags(ob, item):
-    """Who sees it, what Cycles makes of it, and which lights light it or are its own."""
+    """Who sees it, what Cycles and materials read of it, and which lights light it or are its own."""
     for name, value in {**item.visible, **item.flags}.items():
         setattr(ob, name, value)
     for name, value in item.cycles_flags.items():
         setattr(ob.cycles, name, value)
+    for name, value in item.values.items():
+        ob[name] = value
     for role, collection in item.linking.items():
         setattr(ob.light_linking, role, collection)
     light_linking.follow(ob, item.owner if light_linking.memberships(item.owner) else item.original)

@@ -101,6 +101,15 @@ class SavedScene(unittest.TestCase):
         self.assertEqual(sum(key.startswith("row of twins") for key in names), 4)
         self.assertTrue(all(len(name.encode()) <= 63 for name in names.values()))
 
+    def test_instances_keep_what_a_render_reads_of_them(self):
+        rows = {name: ob for name, ob in self.look["objects"].items() if name.startswith("row of twins")}
+        self.assertEqual(len(rows), 4)
+        for name, ob in rows.items():
+            first = name.startswith("row of twins/")
+            self.assertEqual(ob["flags"], {"glossy": False, "shadow": first, "diffuse": True, "color": [0.1, 0.2, 0.3, 1],
+                                           "terminator": 0.25, "wear": 0.5}, name)
+            self.assertEqual(ob["pass_index"], 4)
+
     def test_lightmap_is_the_second_layer(self):
         for entry in self.second["objects"]:
             ob = self.look["objects"][entry["object_in_scene"]]

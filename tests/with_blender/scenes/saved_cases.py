@@ -102,10 +102,17 @@ def scene():
         twin = cube(TWIN, ["UVMap"], at)
         bpy.context.scene.collection.objects.unlink(twin)
         pair.objects.link(twin)
+    for twin in pair.objects:  # what a render reads of an instance, beside its faces
+        twin.visible_glossy, twin.pass_index, twin["wear"] = False, 4, 0.5
+        for owner in (twin, twin.cycles):
+            for name in ("shadow_terminator_geometry_offset", "shadow_terminator_shading_offset"):
+                if hasattr(owner, name):
+                    setattr(owner, name, 0.25)
     for x in (5, 10):
         empty = bpy.data.objects.new("row of twins", None)
         empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", pair, (x, 8, 0)
         bpy.context.scene.collection.objects.link(empty)
+        empty.visible_shadow, empty.color = x == 5, (0.1, 0.2, 0.3, 1)  # its colour is its instances'
 
     with bpy.data.libraries.load("//library.blend", link=True, relative=True) as (_, wanted):
         wanted.collections = ["shelf"]

@@ -12,13 +12,21 @@ def whole(image):
     return bpy.path.abspath(image.filepath, library=image.library).replace("<UDIM>", "1001")
 
 
+def flags(ob):
+    """What a render reads of an object beside its faces."""
+    terminator = [round(getattr(owner, "shadow_terminator_geometry_offset"), 4) for owner in (ob, ob.cycles)
+                  if hasattr(owner, "shadow_terminator_geometry_offset")]
+    return {"glossy": ob.visible_glossy, "shadow": ob.visible_shadow, "diffuse": ob.visible_diffuse,
+            "color": [round(value, 4) for value in ob.color], "terminator": terminator[0], "wear": ob.get("wear")}
+
+
 def describe(ob):
     mesh = ob.data
     layers = {layer.name: [round(value, 5) for corner in layer.data for value in corner.uv] for layer in mesh.uv_layers}
     return {"layers": list(layers), "uvs": layers, "corners": len(mesh.loops),
             "render": next((layer.name for layer in mesh.uv_layers if layer.active_render), None),
             "modifiers": len(ob.modifiers), "parent": ob.parent.name if ob.parent else None,
-            "pass_index": ob.pass_index, "kept": ob.get("kept"), "key": ob.get("rnmbake key", ob.name)}
+            "pass_index": ob.pass_index, "kept": ob.get("kept"), "flags": flags(ob), "key": ob.get("rnmbake key", ob.name)}
 
 
 shown = [ob for ob in bpy.context.scene.objects if ob.type in ("MESH", "CURVE") and not ob.hide_render]
