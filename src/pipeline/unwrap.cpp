@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "pipeline/name_list.h"
 #include "pipeline/workspace.h"
 #include "process/stop.h"
 #include "unwrap/unwrap_mesh.h"
@@ -55,16 +56,28 @@ double world_area(const Mesh& mesh, const Mat44& to_world) {
   return areas(mesh, all, std::vector<Vec2>(mesh.loop_vertex.size()), to_world).world;
 }
 
-void warn_of_narrow_margin(const std::string& key, std::size_t charts, int side, int wanted, double texels) {
-  log::warn(
-      "{}: {} charts leave no room for a margin of {} texels at {} x {}; it is {:.1f}, and light may bleed "
-      "across: raise the resolution, or lower --unwrap-margin",
-      key, charts, wanted, side, side, texels);
-}
+/// Objects whose charts left no room for the margin.
+struct Narrowed {
+  std::vector<std::string> names;
+  double least = 0;  // texels
+
+  void add(const std::string& key, double texels) {
+    least = names.empty() ? texels : std::min(least, texels);
+    names.push_back(fmt::format("{} ({:.1f})", key, texels));
+  }
+  void warn() const {
+    if (names.empty()) return;
+    log::warn(
+        "{}: too many charts for the margin asked for, the texels in brackets are left and light may bleed "
+        "across ({} objects, at least {:.1f} texels): raise the resolution, or lower --unwrap-margin",
+        name_list(names), names.size(), least);
+  }
+};
 
 /// The size of a lightmap with texels_per_unit depends on the packing, and the margin's share on the size: a
 /// few packings bring them together.
-Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings& settings) {
+Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings& settings,
+               Narrowed& narrowed) {
   const double world = world_area(mesh, object.to_world);
   int side = choose_resolution(settings, {world, packing_guess});
   const Charts charts = make_charts(mesh, object.to_world, side);
@@ -77,8 +90,7 @@ Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings
     if (needed >= side && needed <= 1.25 * side) break;
     side = needed;
   }
-  if (made.margin < share)
-    warn_of_narrow_margin(object.key, charts.charts.size(), side, settings.unwrap_margin, made.margin * side);
+  if (made.margin < share) narrowed.add(object.key, made.margin * side);
   log::debug("{}: {} charts cover {:.0f} % of the square", object.key, charts.charts.size(),
              100 * made.uv_area);
   return std::make_shared<const std::vector<Vec2>>(std::move(made.uv));
@@ -102,15 +114,17 @@ std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& 
   log::info("unwrapping {}", counted(first_user.size(), "mesh"));
 
   Progress progress("unwrapping", progress_for(log::is_quiet(), log::is_jsonl()));
+  Narrowed narrowed;
   std::vector<Uvs> unwrapped;
   for (const UnwrapRequest* request : first_user) {
     if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
     const SceneObject& object = survey.objects[request->object];
     const Mesh& mesh = survey.mesh_of(object);
     progress.update(done / triangles, object.key);
-    unwrapped.push_back(unwrap_one(object, mesh, request->settings));
+    unwrapped.push_back(unwrap_one(object, mesh, request->settings, narrowed));
     done += static_cast<double>(mesh.triangles());
   }
+  narrowed.warn();
   std::vector<Uvs> result;
   result.reserve(which.size());
   for (const std::size_t mesh : which) result.push_back(unwrapped[mesh]);
