@@ -31,6 +31,7 @@ struct Arguments {
   bool alone = false, bare = false;
 };
 
+/// In the space of a TraceScene.
 std::vector<Surface> surfaces_of(const Exchange& scene) {
   std::vector<Surface> surfaces;
   for (const SceneObject& object : scene.survey.objects) {
@@ -43,7 +44,8 @@ std::vector<Surface> surfaces_of(const Exchange& scene) {
     }
     if (lightmap == nullptr) continue;
     surfaces.push_back(make_surface(mesh, all, lightmap->uv,
-                                    tangent_frames(mesh, lightmap->uv, object.to_world), object.to_world));
+                                    tangent_frames(mesh, lightmap->uv, object.to_world),
+                                    object.to_world * Mat44().setTranslation(-middle_of(scene))));
   }
   return surfaces;
 }

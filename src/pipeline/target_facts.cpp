@@ -24,12 +24,14 @@ void LostDirections::warn() const {
       name_list(names_), counted(corners_, "corner"));
 }
 
-Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost) {
+Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost,
+                   const Vec3d& origin) {
   const SceneObject& object = survey.objects[target.object];
   const Mesh& mesh = survey.mesh_of(object);
   const TangentFrames frames = tangent_frames(mesh, *target.tangent_uv, object.to_world);
   lost.add(target, frames.degenerate_corners);
-  return make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
+  return make_surface(mesh, target.part.triangles, *target.uv, frames,
+                      object.to_world * Mat44().setTranslation(-origin));
 }
 
 Normalize normalize_of(const OutputSettings& output) {

@@ -25,8 +25,9 @@ class LostDirections {
   std::vector<std::string> names_;
 };
 
-/// World-space triangles with the frames of the target's tangent UVs.
-[[nodiscard]] Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost);
+/// World-space triangles, relative to `origin`, with the frames of the target's tangent UVs.
+[[nodiscard]] Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost,
+                                 const Vec3d& origin = Vec3d(0));
 
 [[nodiscard]] Normalize normalize_of(const OutputSettings& output);
 

@@ -14,6 +14,12 @@
 namespace rnmbake {
 namespace {
 
+/// How far rays start off the surface: some 10 times the spacing of floats there, little beside a small mesh.
+float lift(const Vec3& position, double diagonal) {
+  const double near_origin = std::clamp(1e-3 * diagonal, 1e-6, 1e-5);
+  return static_cast<float>(std::max(near_origin, 1e-6 * double(position.length())));
+}
+
 constexpr int band_rows = 32;
 constexpr int most_backs = 64;  // faces met from behind before a ray gives up
 constexpr double cage_share = 0.03;
@@ -120,7 +126,7 @@ class Measurement {
                    TexelSum& sum) const {
     const float far =
         options_.reach > 0 ? static_cast<float>(options_.reach) : std::numeric_limits<float>::infinity();
-    const Vec3 origin = detail.position + detail.face * static_cast<float>(lift(detail.position, diagonal_));
+    const Vec3 origin = detail.position + detail.face * lift(detail.position, diagonal_);
     for (const WeightedRay& ray : rays) {
       const Vec3 direction = frame.to_world(ray.direction);
       const bool visible = direction.dot(detail.face) > 0 && !tree_.blocked(origin, direction, far);

@@ -116,7 +116,7 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSite& texel, std::uin
     set_out(slot, texel, sampler);
     const LightSample light = scene_.lights().sample(here.position, horizon(slot), sampler.next3());
     if (!(light.pdf > 0)) continue;
-    if (!(light.direction.dot(here.face) > 0)) {
+    if (!(light.direction.dot(here.face) > grazing_sine)) {
       if (recipe_ && recipe_->faults().below_horizon) add_below(slot, texel, light);
       continue;
     }

@@ -39,12 +39,12 @@ double unless_normalized(const LightInfo& light, double area) {
 
 class Reader {
  public:
-  explicit Reader(int version) : version_(version) {}
+  Reader(int version, const Vec3d& origin) : version_(version), origin_(origin) {}
 
   [[nodiscard]] Lamp read(const LightInfo& light) const {
     Lamp lamp;
     const auto* place = light.to_world[3];
-    lamp.position = Vec3(Vec3d(place[0], place[1], place[2]));
+    lamp.position = Vec3(Vec3d(place[0], place[1], place[2]) - origin_);
     lamp.axis = -column(light, 2).normalized();
     lamp.max_bounces = light.max_bounces;
     if (light.type == "SUN")
@@ -120,12 +120,13 @@ class Reader {
   }
 
   int version_;
+  Vec3d origin_;
 };
 
 }  // namespace
 
-std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_version) {
-  const Reader reader(version_number(blender_version));
+std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_version, const Vec3d& origin) {
+  const Reader reader(version_number(blender_version), origin);
   std::vector<Lamp> lamps;
   for (const LightInfo& light : survey.lights) {
     const Lamp lamp = reader.read(light);

@@ -39,9 +39,10 @@ float sun_importance(const Lamp& sun, const Vec3& normal) {
 
 /// What is chosen from: the tree, the world, and each sun.
 struct Lights::Impl {
-  Impl(const Exchange& exchange, const Triangles& all, const std::string& blender_version)
+  Impl(const Exchange& exchange, const Triangles& all, const std::string& blender_version,
+       const Vec3d& origin)
       : triangles(all), looks(exchange), world(exchange), glows(glowing_triangles(exchange, all)) {
-    for (Lamp& lamp : read_lamps(exchange.survey, blender_version)) {
+    for (Lamp& lamp : read_lamps(exchange.survey, blender_version, origin)) {
       (lamp.kind == Lamp::Kind::sun ? suns : lamps).push_back(lamp);
     }
     std::vector<LightBounds> bounds;
@@ -132,8 +133,9 @@ struct Lights::Impl {
   LightTree tree;  // of lamps, then glows
 };
 
-Lights::Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version)
-    : impl_(std::make_unique<Impl>(scene, triangles, blender_version)) {}
+Lights::Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version,
+               const Vec3d& origin)
+    : impl_(std::make_unique<Impl>(scene, triangles, blender_version, origin)) {}
 Lights::~Lights() = default;
 Lights::Lights(Lights&&) noexcept = default;
 Lights& Lights::operator=(Lights&&) noexcept = default;

@@ -30,9 +30,10 @@ struct LightSample {
 /// too, so they have a pdf for a given direction.
 class Lights {
  public:
-  /// Scene and triangles must outlive it. `blender_version` ("3.4.1") says what the numbers of a light mean
-  /// (docs/reference.md).
-  Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version);
+  /// Scene and triangles must outlive it; the triangles are relative to `origin`, and so is everything then.
+  /// `blender_version` ("3.4.1") says what the numbers of a light mean (docs/reference.md).
+  Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version,
+         const Vec3d& origin = Vec3d(0));
   ~Lights();
   Lights(Lights&&) noexcept;
   Lights& operator=(Lights&&) noexcept;

@@ -107,7 +107,7 @@ Vec3 OwnSurface::start_below(std::uint32_t triangle, const Vec3& weights, const 
   }
   if (curved && normal.dot(direction) > 0) return start + bulge(smooth, weights);
   // Cycles passes by the triangle that it starts from.
-  return start - flat.normal * (side * 2 * (rounding_gap(start) + static_cast<float>(lift(start, 1))));
+  return start - flat.normal * (side * 2 * (rounding_gap(start) + flat.height));
 }
 
 Vec3 OwnSurface::start_below(const Vertex& vertex, const Vec3& direction) const {

@@ -80,9 +80,10 @@ struct TraceScene::Journey {
 
 TraceScene::TraceScene(const Exchange& scene, const std::string& blender_version)
     : exchange_(scene),
-      triangles_(world_triangles(scene)),
+      origin_(middle_of(scene)),
+      triangles_(world_triangles(scene, origin_)),
       looks_(scene),
-      lights_(scene, triangles_, blender_version),
+      lights_(scene, triangles_, blender_version, origin_),
       accelerator_(std::make_unique<Accelerator>(triangles_, looks_, &Journey::filter)) {}
 
 TraceScene::~TraceScene() = default;

@@ -46,7 +46,9 @@ struct Visibility {
 
 class Accelerator;
 
-/// Owns the acceleration structure; the Exchange must outlive it. Thread-safe once made.
+/// All places, of rays and lights too, are relative to origin(), so that how exact they are does not depend
+/// on where a scene stands. Owns the acceleration structure; the Exchange must outlive it. Thread-safe once
+/// made.
 class TraceScene {
  public:
   /// `blender_version`: whose light units hold (trace/lights.h). Throws Error(environment) where Embree
@@ -65,6 +67,8 @@ class TraceScene {
   static constexpr std::size_t packet = 8;
 
   [[nodiscard]] const Exchange& exchange() const { return exchange_; }
+  /// In the exchange's world.
+  [[nodiscard]] const Vec3d& origin() const { return origin_; }
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
   [[nodiscard]] const Lights& lights() const { return lights_; }
   [[nodiscard]] const Looks& looks() const { return looks_; }
@@ -80,6 +84,7 @@ class TraceScene {
  private:
   struct Journey;
   const Exchange& exchange_;
+  Vec3d origin_;
   Triangles triangles_;
   Looks looks_;
   Lights lights_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ImathBox.h>
+
 namespace rnmbake {
 namespace {
 
@@ -11,7 +13,7 @@ bool finite(const Vec3& v) {
 }
 
 /// Appends one object's triangles. A mirrored object keeps its front: two corners change places.
-void add_object(const Exchange& scene, std::size_t object_index, Triangles& out) {
+void add_object(const Exchange& scene, std::size_t object_index, const Vec3d& origin, Triangles& out) {
   const SceneObject& object = scene.survey.objects[object_index];
   const Mesh& mesh = scene.survey.mesh_of(object);
   const Mat44 for_normals = object.to_world.inverse().transposed();
@@ -27,7 +29,7 @@ void add_object(const Exchange& scene, std::size_t object_index, Triangles& out)
     for (int k = 0; k < 3; ++k) {
       const std::size_t corner = 3 * t + (mirrored && k > 0 ? 3 - k : k);  // as in a Surface
       const std::uint32_t loop = mesh.triangle_loops[corner];
-      p[k] = Vec3(Vec3d(mesh.positions[mesh.loop_vertex[loop]]) * object.to_world);
+      p[k] = Vec3(Vec3d(mesh.positions[mesh.loop_vertex[loop]]) * object.to_world - origin);
       Vec3d normal;
       for_normals.multDirMatrix(Vec3d(mesh.loop_normal[loop]), normal);
       n[k] = Vec3(normal.normalized());
@@ -49,10 +51,22 @@ void add_object(const Exchange& scene, std::size_t object_index, Triangles& out)
 
 }  // namespace
 
-Triangles world_triangles(const Exchange& scene) {
+Vec3d middle_of(const Exchange& scene) {
+  Imath::Box3d box;
+  for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
+    if (!scene.takes_part(i)) continue;
+    const SceneObject& object = scene.survey.objects[i];
+    for (const Vec3& p : scene.survey.mesh_of(object).positions) {
+      if (finite(p)) box.extendBy(Vec3d(p) * object.to_world);
+    }
+  }
+  return box.isEmpty() ? Vec3d(0) : box.center();
+}
+
+Triangles world_triangles(const Exchange& scene, const Vec3d& origin) {
   Triangles triangles;
   for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
-    if (scene.takes_part(i)) add_object(scene, i, triangles);
+    if (scene.takes_part(i)) add_object(scene, i, origin, triangles);
   }
   return triangles;
 }

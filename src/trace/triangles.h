@@ -21,8 +21,11 @@ struct Triangles {
   [[nodiscard]] std::size_t size() const { return look.size(); }
 };
 
-/// All objects that block light, in order. Triangles without area or with a corner that is not finite are
-/// left out.
-[[nodiscard]] Triangles world_triangles(const Exchange& scene);
+/// The middle of all objects that block light, world space.
+[[nodiscard]] Vec3d middle_of(const Exchange& scene);
+
+/// All objects that block light, in order, relative to `origin`. Triangles without area or with a corner that
+/// is not finite are left out.
+[[nodiscard]] Triangles world_triangles(const Exchange& scene, const Vec3d& origin = Vec3d(0));
 
 }  // namespace rnmbake

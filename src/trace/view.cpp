@@ -57,7 +57,7 @@ class ViewTracer {
       : scene_(scene),
         options_(options),
         reflected_(reflected),
-        rays_(camera, options.width, options.height),
+        rays_(camera, options.width, options.height, scene.origin()),
         view_{FloatImage(options.width, options.height, 3), FloatImage(options.width, options.height, 3),
               FloatImage(options.width, options.height, 1)} {}
 
@@ -106,8 +106,9 @@ double pixel_shape(const Camera& camera) {
   return wide > 0 && high > 0 ? wide / high : 1;
 }
 
-CameraRays::CameraRays(const Camera& camera, int width, int height)
+CameraRays::CameraRays(const Camera& camera, int width, int height, const Vec3d& origin)
     : to_world_(camera.to_world),
+      origin_(origin),
       orthographic_(camera.orthographic),
       pixels_x_(width),
       pixels_y_(height),
@@ -124,7 +125,7 @@ Ray CameraRays::through(double x, double y) const {
   Vec3d world_origin, world_direction;
   to_world_.multVecMatrix(origin, world_origin);
   to_world_.multDirMatrix(direction, world_direction);
-  return {Vec3(world_origin), unit(Vec3(world_direction.normalized())), infinity};
+  return {Vec3(world_origin - origin_), unit(Vec3(world_direction.normalized())), infinity};
 }
 
 View trace_view(const TraceScene& scene, const Camera& camera, const ViewOptions& options,

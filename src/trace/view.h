@@ -16,13 +16,15 @@ namespace rnmbake {
 /// Keeps the camera's horizontal field of view and the shape of its pixels, whatever the picture's size.
 class CameraRays {
  public:
-  CameraRays(const Camera& camera, int width, int height);
+  /// Rays are relative to `origin`.
+  CameraRays(const Camera& camera, int width, int height, const Vec3d& origin = Vec3d(0));
 
   /// In pixels from the top left corner: (0.5, 0.5) is the first pixel's centre.
   [[nodiscard]] Ray through(double x, double y) const;
 
  private:
   Mat44 to_world_;
+  Vec3d origin_;
   bool orthographic_;
   double pixels_x_, pixels_y_;  // of the picture
   double width_, height_;       // of the picture in the camera's space; of a perspective one at distance 1

@@ -37,53 +37,72 @@ Vec3 winding(const SurfaceTriangle& triangle) {
   return (k[1].position - k[0].position).cross(k[2].position - k[0].position).normalized();
 }
 
-TEST(Lift, IsManyFloatStepsAtAnyDistance) {
-  for (const float distance : {0.0F, 1.0F, 13.0F, 126.0F, 1260.0F, 1e6F}) {
-    const float step = std::nextafter(distance, 2e9F) - distance;
-    EXPECT_GT(lift(Vec3(distance, 0, 0), 1), 8 * double(step)) << distance;
-    EXPECT_LT(lift(Vec3(distance, 0, 0), 1), std::max(2e-5, 1e-5 * double(distance))) << distance;
-  }
+double step_at(double distance) {
+  return double(std::nextafter(float(distance), 1e30F)) - double(float(distance));
 }
 
-TEST(Lift, IsSmallBesideASmallObject) {
-  EXPECT_LE(lift(Vec3(0), 1e-3), 1e-6 + 1e-12);
-  EXPECT_LT(lift(Vec3(0), 5e-3), lift(Vec3(0), 1));
-  EXPECT_GT(lift(Vec3(0), 0), 0);
+float height_of(const Mat44& to_world) {
+  const Surface surface = square_surface(to_world);
+  EXPECT_EQ(surface.triangles.size(), 2U);
+  return surface.triangles.empty() ? 0.0F : surface.triangles[0].height;
 }
 
 TEST(Surface, StandsOffAlongTheFaceNormal) {
-  for (const double distance : {0.0, 10.0, 1000.0}) {
-    const Surface surface = square_surface(moved({distance, 0, 0}, 1));
+  for (const double distance : {0.0, 10.0, 1000.0, 1e5}) {
+    const Surface surface = square_surface(moved({0.5 * distance, 0, distance}, 1));
     ASSERT_EQ(surface.triangles.size(), 2U);
     for (const SurfaceTriangle& triangle : surface.triangles) {
       EXPECT_NEAR(triangle.normal.z, 1, 1e-6);
-      for (const SurfaceCorner& corner : triangle.corners) {
-        EXPECT_GT(corner.position.z, 0);
-        EXPECT_LT(corner.position.z, 1e-5 + 5e-6 * distance);
-      }
+      EXPECT_GE(triangle.height, 4 * step_at(distance));
+      EXPECT_LE(triangle.height, 8 * step_at(distance) + 2e-6);
+      for (const SurfaceCorner& corner : triangle.corners)
+        EXPECT_NEAR(corner.position.z, distance + double(triangle.height), step_at(distance));
     }
   }
 }
 
-TEST(Surface, DrawnInCornersStayInsideTheTriangle) {
-  const std::array<Vec2, 3> places[] = {{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1)},
-                                        {Vec2(-1, -1), Vec2(1, 1), Vec2(-1, 1)}};
-  for (const double scale : {1e-4, 1e-2, 1.0, 100.0}) {
+TEST(Surface, OnlyCoordinatesAcrossAFaceLiftIt) {
+  EXPECT_EQ(height_of(moved({1e5, -1e5, 0}, 1)), height_of(Mat44()));
+  Mat44 upright;
+  upright.setAxisAngle(Imath::V3d(0, 1, 0), pi / 2);
+  upright[3][0] = 1000;
+  EXPECT_NEAR(height_of(upright), 8 * 1000 * 0x1p-24, 1e-5);
+}
+
+TEST(Surface, CornersStayInPlaceAtAnySize) {
+  for (const double scale : {1e-4, 1.0, 1e4}) {
     const Surface surface = square_surface(scaled(scale, scale, scale));
-    for (std::size_t t = 0; t < 2; ++t) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Vec3& p = surface.triangles[t].corners[c].position;
-        const Vec2 moved_by = Vec2(p.x, p.y) / static_cast<float>(scale) - places[t][c];
-        const float to_middle = std::sqrt(20.0F) / 3;  // of the longest way, from a sharp corner
-        EXPECT_LE(moved_by.length(), 0.081F * to_middle) << scale;
-        for (std::size_t e = 0; e < 3; ++e) {
-          const Vec2 from = places[t][e], edge = places[t][(e + 1) % 3] - from;
-          const Vec2 to = Vec2(p.x, p.y) / static_cast<float>(scale) - from;
-          EXPECT_GT(edge.x * to.y - edge.y * to.x, 0) << "corner " << c << " edge " << e << " at " << scale;
-        }
-      }
+    const Vec2 places[] = {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = surface.triangles[0].corners[k].position / static_cast<float>(scale);
+      EXPECT_LT((Vec2(p.x, p.y) - places[k]).length(), 1e-6) << scale;
+      EXPECT_GT(p.z, 0) << scale;
+      EXPECT_LT(p.z, 2e-6) << scale;
     }
   }
+}
+
+/// A level floor whose mesh is tilted, or lies far from its own origin: where Cycles turns rays to the mesh,
+/// those have the world's coordinates, mixed.
+TEST(Surface, KnowsWhatTheObjectsMatrixMixes) {
+  Mat44 tilt;
+  tilt.setAxisAngle(Imath::V3d(1, 1, 1).normalized(), 0.4);
+  Mesh tilted = square();
+  for (Vec3& p : tilted.positions) p = Vec3(Vec3d(p) * tilt);
+  Mat44 level = tilt.transposed();
+  level[3][0] = 1000;
+  const Surface surface =
+      make_surface(tilted, both_triangles, square_uv(), tangent_frames(tilted, square_uv(), level), level);
+  EXPECT_NEAR(surface.triangles[0].normal.z, 1, 1e-6);
+  EXPECT_GT(surface.triangles[0].height, 1e-4);
+
+  Mesh off = square();
+  for (Vec3& p : off.positions) p.z += 5000;
+  const Mat44 back = moved({0, 0, -5000}, 1);
+  const Surface pivoted =
+      make_surface(off, both_triangles, square_uv(), tangent_frames(off, square_uv(), back), back);
+  EXPECT_NEAR(pivoted.triangles[0].corners[0].position.z, 0, 0.01);
+  EXPECT_GT(pivoted.triangles[0].height, 4 * step_at(5000));
 }
 
 TEST(Surface, OfAMirroredObjectKeepsItsOutside) {

@@ -91,7 +91,7 @@ TEST(SeeThrough, CommonEdgesCountOnce) {
   add_sheet(scene, {level(1, 1)}, tint);
   const TraceScene traced(scene, "4.3.2");
   for (const float along : {0.0F, 0.25F, -0.5F}) {  // the quad's diagonal
-    const Visibility left = traced.visibility({{along, along, 0}, {0, 0, 1}, 2});
+    const Visibility left = traced.visibility({{along, along, -1}, {0, 0, 1}, 2});
     EXPECT_EQ(left.transmittance, tint);
     EXPECT_EQ(left.onward, 1) << "black";
   }
@@ -269,7 +269,7 @@ TEST(SeeThrough, CamerasSeeEachSurfaceByItsShare) {
   options.samples = 256;
   const TraceScene traced(scene, "4.3.2");
   const View view = trace_view(traced, camera, options, [](const Vertex& vertex, Sampler&) {
-    return vertex.position.z > 0.5F ? Vec3(1, 2, 3) : Vec3(3, 1, 2);
+    return vertex.position.z > 0 ? Vec3(1, 2, 3) : Vec3(3, 1, 2);
   });
   for (std::size_t c = 0; c < 3; ++c) {
     double sum = 0, albedo = 0;

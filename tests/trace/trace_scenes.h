@@ -5,6 +5,7 @@
 #include "scene/surface.h"
 #include "support/bases.h"
 #include "trace/gather.h"
+#include "trace/triangles.h"
 
 #include <array>
 #include <cmath>
@@ -81,13 +82,15 @@ inline LightInfo light(const std::string& type, double energy, std::map<std::str
   return info;
 }
 
+/// In the space of a TraceScene.
 inline Surface surface_of(const Exchange& scene, std::size_t object) {
   const SceneObject& it = scene.survey.objects[object];
   const Mesh& mesh = scene.survey.mesh_of(it);
   std::vector<std::uint32_t> all(mesh.triangles());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::uint32_t>(t);
   const std::vector<Vec2>& uv = mesh.uv_layers.front().uv;
-  return make_surface(mesh, all, uv, tangent_frames(mesh, uv, it.to_world), it.to_world);
+  return make_surface(mesh, all, uv, tangent_frames(mesh, uv, it.to_world),
+                      it.to_world * Mat44().setTranslation(-middle_of(scene)));
 }
 
 /// What a direction of the basis gathers of a uniform sky of radiance 1, on a flat floor.
