@@ -14,7 +14,7 @@ import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
-from scene_ops import cycles, displacement, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
+from scene_ops import cycles, displacement, fences, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
 
 
 def main(task):
@@ -25,7 +25,8 @@ def main(task):
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()
         glow.leave_to_chance(set(task.request["left_to_chance"]))
-        own_shadow.block_light_from_below()
+        own_shadow.block_light_from_below(scene)
+        fences.build(task, scene)
         return bake_receivers(task, scene)
     return flat_normal_map.bake_targets(task, scene)
 

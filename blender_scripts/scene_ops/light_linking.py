@@ -6,10 +6,18 @@ way (included or excluded).
 import bpy
 
 
+def block(ob):
+    """Have a stand-in stop light for every light, also where that chooses what blocks it."""
+    for collection in _collections("blocker_collection"):
+        if any(entry.light_linking.link_state == "INCLUDE"
+               for entry in [*collection.collection_objects, *collection.collection_children]):
+            collection.objects.link(ob)
+
+
 def memberships(ob):
     """[(collection, "INCLUDE" or "EXCLUDE")] of the collections by which lights choose, for those that hold `ob`."""
     found = []
-    for collection in _choosing_collections():
+    for collection in _collections("receiver_collection"):
         entries = [*zip(collection.children, collection.collection_children),
                    *zip(collection.objects, collection.collection_objects)]
         for held, entry in entries:
@@ -18,9 +26,10 @@ def memberships(ob):
     return found
 
 
-def _choosing_collections():
-    lights = [ob for ob in bpy.data.objects if hasattr(ob, "light_linking")]
-    chosen = {ob.light_linking.receiver_collection for ob in lights if ob.light_linking.receiver_collection}
+def _collections(kind):
+    """By which lights choose: what they light ("receiver_collection") or what blocks them."""
+    linkings = [ob.light_linking for ob in bpy.data.objects if hasattr(ob, "light_linking")]
+    chosen = {getattr(linking, kind) for linking in linkings} - {None}
     return sorted(chosen, key=lambda collection: collection.name_full)
 
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/atlas.h"
+#include "bake/fences.h"
 #include "bake/receiver.h"
 #include "bake/targets.h"
 #include "config/bake_settings.h"
@@ -48,6 +49,7 @@ struct Dispatch {
 
 struct Plan {
   std::vector<Tile> tiles;
+  std::vector<std::vector<Fence>> fences;  // [targets], or none at all
   std::vector<Unit> units;
   std::vector<Dispatch> dispatches;
 };

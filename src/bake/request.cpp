@@ -148,6 +148,29 @@ json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::
           {"pixels", pixels_name(atlas)}, {"groups", groups},      {"covered_texels", texels}};
 }
 
+/// The fences of all targets of a dispatch: their corners, then `up` once for each corner.
+json write_fences(const Dispatch& dispatch, const Plan& plan, const fs::path& folder) {
+  std::set<std::size_t> targets;
+  if (!plan.fences.empty()) {
+    for (const std::size_t unit : dispatch.units) targets.insert(plan.units[unit].target);
+  }
+  std::vector<Vec3> corners, ups;
+  for (const std::size_t target : targets) {
+    for (const Fence& fence : plan.fences[target]) {
+      corners.insert(corners.end(), fence.corners.begin(), fence.corners.end());
+      ups.insert(ups.end(), 4, fence.up);
+    }
+  }
+  const std::string arrays = "fences.f32";
+  if (!corners.empty()) {
+    ArrayFile out(folder / arrays);
+    out.write(std::span<const Vec3>(corners));
+    out.write(std::span<const Vec3>(ups));
+    out.close();
+  }
+  return {{"arrays", arrays}, {"count", corners.size() / 4}};
+}
+
 /// Polygons of a target that is a part of its object; the whole object has no list.
 std::vector<std::int32_t> part_polygons(const Mesh& mesh, const Part& part) {
   std::vector<std::int32_t> polygons;
@@ -224,6 +247,7 @@ BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatc
   BakeRequest request{base_request(dispatch, context.plan, "receiver"),
                       {tiles_of(dispatch, context.plan), {}}};
   request.json["left_to_chance"] = glowing_materials(context, dispatch);
+  request.json["fences"] = write_fences(dispatch, context.plan, folder);
   std::vector<TileSize> sizes;
   for (const std::size_t tile : request.layout.tiles) sizes.push_back(context.plan.tiles[tile].size);
   request.layout.atlas = pack(sizes, max_pixels);

@@ -9,8 +9,12 @@
 #include "pipeline/target_facts.h"
 #include "scene/lighting.h"
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
 namespace {
@@ -48,6 +52,12 @@ const char* footprint(const BlenderVersion& version) {
   return version.major >= 5 ? "texel" : "half texel";
 }
 
+constexpr double coarse_height = 0.1;  // texels
+
+double distance_of(const Surface& surface) {
+  return surface.triangles.empty() ? 0 : Vec3d(surface.triangles.front().corners[0].position).length();
+}
+
 class BakeRun {
  public:
   BakeRun(Workspace& workspace, const BakeSubject& subject)
@@ -56,7 +66,11 @@ class BakeRun {
         subject_(subject),
         list_(subject.list),
         bases_(subject.bases),
-        horizons_(list_.targets.size()) {}
+        horizons_(list_.targets.size()),
+        heights_(list_.targets.size()),
+        lights_(light_balls(subject.survey)) {
+    plan_.fences.resize(list_.targets.size());
+  }
 
   BakeOutcome run() {
     make_plan();
@@ -74,6 +88,12 @@ class BakeRun {
   }
 
  private:
+  /// A target whose receivers stand too high.
+  struct Coarse {
+    std::size_t target;
+    double distance;  // from the origin
+  };
+
   [[nodiscard]] bool by_receiver() const { return settings_.bake.recipe == BakingSettings::Recipe::receiver; }
 
   void make_plan() {
@@ -85,6 +105,34 @@ class BakeRun {
     }
     lost_.warn();
     group_units(plan_, resolve_dispatch(settings_.bake));
+    warn_of_coarse();
+    if (by_receiver()) warn_of_shadowless();
+  }
+
+  /// Cycles asks no surface whether it blocks them: a receiver does not know what is under its face.
+  void warn_of_shadowless() const {
+    for (const LightInfo& light : subject_.survey.lights) {
+      const auto& outside = light.outside_model;
+      if (std::ranges::find(outside, "no shadow") == outside.end()) continue;
+      log::warn(
+          "light '{}' casts no shadows: the basis maps of faces that are turned away from it take in some of "
+          "its "
+          "light; switch its shadows on",
+          light.name);
+    }
+  }
+
+  /// Floats are too coarse there, in Cycles as everywhere.
+  void warn_of_coarse() const {
+    if (coarse_.empty()) return;
+    const auto& worst =
+        *std::ranges::max_element(coarse_, {}, [&](const Coarse& it) { return heights_[it.target]; });
+    const std::string more = coarse_.size() > 1 ? fmt::format(" (and {} more)", coarse_.size() - 1) : "";
+    log::warn(
+        "'{}'{} stands {:.0f} units from the origin, too far for 32-bit floats: shadows in its lightmap may "
+        "be "
+        "{:.2g} texels out of place; move the scene to the origin",
+        list_.targets[worst.target].key, more, worst.distance, heights_[worst.target]);
   }
 
   [[nodiscard]] LightmapMetadata metadata(std::size_t i) const {
@@ -115,8 +163,11 @@ class BakeRun {
     if (by_receiver()) {
       std::vector<BasisDirection> bases = bases_;
       for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
-      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon,
-                                  Vec2(float(target.width), float(target.height)));
+      const Vec2 map(float(target.width), float(target.height));
+      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon, map);
+      plan_.fences[i] = make_fences(*surface, lights_, map);
+      heights_[i] = height_in_texels(*surface, map);
+      if (heights_[i] > coarse_height) coarse_.push_back({i, distance_of(*surface)});
       horizons_[i] = sheets.counts;
       keep_surface |= sheets.sheets.size() > bases.size();
       add_receiver_units(plan_, i, target, std::move(sheets), bases_, cycles);
@@ -129,7 +180,7 @@ class BakeRun {
                                                  subject_.earlier.add_to(uvs_of(list_.targets)));
     write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved,
                     subject_.earlier,
-                    BakeRecord{horizons_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
+                    BakeRecord{horizons_, heights_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
   }
 
   Workspace& workspace_;
@@ -141,6 +192,9 @@ class BakeRun {
   std::vector<DeliveryNote> notes_;
   std::vector<HorizonCounts> horizons_;
   LostDirections lost_;
+  std::vector<double> heights_;
+  std::vector<Coarse> coarse_;
+  std::vector<LightBall> lights_;
 };
 
 }  // namespace

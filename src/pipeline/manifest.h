@@ -28,6 +28,7 @@ inline constexpr int manifest_schema_version = 1;
 /// What only a bake has to say.
 struct BakeRecord {
   const std::vector<HorizonCounts>& horizons;  // [targets]
+  const std::vector<double>& heights;          // [targets] of receivers over their faces, texels; 0: none
   std::string dispatch;                        // basis, object, scene
   BakeTimings timings;
 };

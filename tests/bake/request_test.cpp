@@ -91,6 +91,25 @@ TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
   }
 }
 
+TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
+  add_all();
+  EXPECT_EQ(
+      receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path()).json.at("fences").at("count"),
+      0);
+  plan_.fences.resize(3);
+  plan_.fences[0].push_back(Fence{{Vec3(1), Vec3(2), Vec3(3), Vec3(4)}, Vec3(0, 0, 1)});
+  plan_.fences[2].push_back(Fence{{Vec3(5), Vec3(6), Vec3(7), Vec3(8)}, Vec3(1, 0, 0)});
+  Dispatch last;  // of "lit" alone
+  for (const std::size_t unit : plan_.dispatches[0].units)
+    if (plan_.units[unit].target == 2) last.units.push_back(unit);
+  const auto fences = receiver_request(context(), last, 1 << 20, folder_.path()).json.at("fences");
+  EXPECT_EQ(fences.at("count"), 1);
+  const auto values = read_floats(folder_.path() / fences.at("arrays"));
+  ASSERT_EQ(values.size(), 24U);
+  EXPECT_EQ(values[3], 6);
+  for (std::size_t i = 12; i < 24; ++i) EXPECT_EQ(values[i], i % 3 == 0 ? 1 : 0);
+}
+
 TEST_F(Requests, ThatDoNotFitOneAtlasTakeSeveral) {
   add_all();
   const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 200, folder_.path());
