@@ -34,8 +34,8 @@ REFERENCES = (
     ("accessors", ("sparse", "values", "bufferView"), "bufferViews"),
     ("bufferViews", ("buffer",), "buffers"),
 )
-ATTRIBUTES = {"POSITION": ("VEC3",), "NORMAL": ("VEC3",), "TANGENT": ("VEC4",), "TEXCOORD": ("VEC2",),
-              "COLOR": ("VEC3", "VEC4"), "JOINTS": ("VEC4",), "WEIGHTS": ("VEC4",)}
+ATTRIBUTES = {"POSITION": ("VEC3",), "NORMAL": ("VEC3",), "TANGENT": ("VEC3", "VEC4"), "TEXCOORD": ("VEC2",),
+              "COLOR": ("VEC3", "VEC4"), "JOINTS": ("VEC4",), "WEIGHTS": ("VEC4",)}  # TANGENT: VEC3 in targets
 DEEPEST = 1000  # nodes above a node
 LARGEST_ZEROS = 1 << 30  # bytes that accessors without data may stand for
 PLACE = {"translation": 3, "rotation": 4, "scale": 3, "matrix": 16}

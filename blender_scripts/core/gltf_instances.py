@@ -1,10 +1,11 @@
 """EXT_mesh_gpu_instancing: every instance becomes a node of its own, called NODE#0, NODE#1, ..."""
 from core.gltf_accessors import read_elements
-from core.gltf_file import BrokenGltf
+from core.gltf_file import BrokenGltf, UnsupportedGltf
 
 INSTANCES = "EXT_mesh_gpu_instancing"
 PLACES = {"TRANSLATION": ("translation", "VEC3"), "ROTATION": ("rotation", "VEC4"), "SCALE": ("scale", "VEC3")}
 LONGEST_NAME = 63  # bytes, in Blender
+MOST = 1 << 20  # objects that one node may become
 
 
 def place_instances(gltf):
@@ -33,6 +34,8 @@ def places_of(gltf, attributes, name):
         if attribute in attributes:
             if gltf.items("accessors")[attributes[attribute]]["type"] != kind:
                 raise BrokenGltf(f"the {attribute} of the instances of {name!r} is no {kind}; export it again")
+            if gltf.items("accessors")[attributes[attribute]]["count"] > MOST:
+                raise UnsupportedGltf(f"{name!r} has more instances than {MOST}, and each becomes an object; split it")
             columns[key] = read_elements(gltf, attributes[attribute])
     if len({len(column) for column in columns.values()}) > 1:
         raise BrokenGltf(f"the instances of {name!r} differ in number between their attributes; export it again")

@@ -112,11 +112,12 @@ def take_uncompressed(gltf):
 
 def refer_from_elsewhere(gltf):
     """Absolute paths, so that the JSON may lie in another folder; the buffer of a .glb is a part of that file."""
-    if gltf.binary:
+    buffers = gltf.items("buffers")
+    if gltf.binary and buffers and "uri" not in buffers[0]:
         for view in gltf.items("bufferViews"):
             if view["buffer"] == 0:
                 view["byteOffset"] = view.get("byteOffset", 0) + gltf.binary[0]
-        gltf.json["buffers"][0].update(uri=quote(os.path.abspath(gltf.path)), byteLength=sum(gltf.binary))
+        buffers[0].update(uri=quote(os.path.abspath(gltf.path)), byteLength=sum(gltf.binary))
     for kind in ("buffers", "images"):
         for number, entry in enumerate(gltf.items(kind)):
             uri = entry.get("uri")
