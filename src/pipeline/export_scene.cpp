@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/object_notes.h"
 #include "pipeline/launch_answer.h"
 
 #include <algorithm>
