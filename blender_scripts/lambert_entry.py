@@ -13,7 +13,7 @@ import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
 from scene_ops import displacement, export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
-from scene_ops.load import open_to_measure, refuse_blocked_scripts  # noqa: E402
+from scene_ops.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
 from scene_ops.saving import save_copy  # noqa: E402
 
 FILE = "lambert.blend"
@@ -21,6 +21,7 @@ FILE = "lambert.blend"
 
 def main(task):
     warnings = open_to_measure(task)
+    warnings = scene_warnings() + warnings
     export_notes.remember_camera(bpy.context.scene)
     warnings += displacement.settle()
     task.progress("evaluate")

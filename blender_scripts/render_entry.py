@@ -19,13 +19,13 @@ from scene_ops.load import open_to_measure  # noqa: E402
 
 
 def main(task):
-    warnings = open_to_measure(task)
+    open_to_measure(task)
     scene, request = bpy.context.scene, task.request
     if request["normal_maps"]:
         render_normals.put_back()
     render_camera.look_through(scene, request["camera"])
     render_camera.size(scene, request["width"], request["height"], request["pixel_shape"])
-    return {"pictures": [render(task, scene, number) for number in range(len(request["seeds"]))], "warnings": warnings}
+    return {"pictures": [render(task, scene, number) for number in range(len(request["seeds"]))]}
 
 
 def render(task, scene, number):

@@ -6,22 +6,18 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
 from scene_ops import displacement  # noqa: E402
-from scene_ops.load import imported_blend, open_to_measure, refuse_blocked_scripts  # noqa: E402
+from scene_ops.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
 from scene_ops.survey import survey_scene, volume_warnings, write_survey  # noqa: E402
 
 
 def main(task):
     warnings = open_to_measure(task)
-    blend = imported_blend(task)  # before the survey, which changes the render settings
-    warnings += displacement.settle()
+    warnings = [*scene_warnings(), *warnings, *displacement.settle()]
     task.progress("evaluate")
     survey = survey_scene(task)
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
     survey["warnings"] = [*warnings, *survey["warnings"], *volume_warnings(survey)]
-    result = {"survey": write_survey(task, survey)}
-    if blend:
-        result["blend"] = blend
-    return result
+    return {"survey": write_survey(task, survey)}
 
 
 run(main)

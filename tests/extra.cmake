@@ -23,9 +23,11 @@ foreach(CHECK accuracy tracing)
 endforeach()
 
 # What scripts for Blender do without it.
-add_test(NAME scripts.keys
-  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/scripts/keys_check.py)
-set_tests_properties(scripts.keys PROPERTIES LABELS unit TIMEOUT 60)
+foreach(CHECK keys gltf)
+  add_test(NAME scripts.${CHECK}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/scripts/${CHECK}_check.py)
+  set_tests_properties(scripts.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
+endforeach()
 
 # Bad input through the real program and a real Blender: one test for each class of bad_input/*_check.py.
 foreach(CHECK files.Scenes files.Folders content.Content content.Names content.Scripts

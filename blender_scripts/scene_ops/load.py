@@ -1,105 +1,50 @@
-"""Opens the scene that a task names, or says in one line why it cannot be baked."""
+"""Checks the scene that Blender's own command line opened, or says in one line why it cannot be baked."""
+import json
 import os
 
 import bpy
 
-from core.task import ENVIRONMENT, INVALID_INPUT, IO, UNSUPPORTED, Refusal
+from core.task import INVALID_INPUT, Refusal
 from scene_ops import untrusted
 from scene_ops.caches import missing_caches
+from scene_ops.export_notes import CAMERA
 from scene_ops.neutral import neutralise
-from scene_ops.saving import save_copy
+from scene_ops.pictures import picture_faults
 
-GLTF = (".glb", ".gltf")
-IMPORTED = (*GLTF, ".obj")
+# On a scene that was imported (import_scene.py): a JSON list of what its file says and nobody follows.
+NOTES_PROPERTY = "rnmbake notes"
 
 
 def open_scene(task):
-    """Open and check request["scene"]; returns what the user should be warned of.
-
-    A .blend was opened by Blender's own command line, before this script ran. glTF and OBJ are imported here,
-    into an empty scene, and saved beside the request as imported.blend for the launches that follow.
-    """
-    scene = task.request["scene"]
-    extension = os.path.splitext(scene)[1].lower()
-    if extension in GLTF:
-        task.progress("load", os.path.basename(scene))
-        import_gltf(scene)
-    elif extension == ".obj":
-        task.progress("load", os.path.basename(scene))
-        import_obj(scene)
-    elif extension != ".blend":
-        raise Refusal(f"{scene}: not a .blend, .glb, .gltf or .obj file", UNSUPPORTED)
-    elif not bpy.data.filepath:
-        raise Refusal(f"{scene}: Blender did not open it; is it damaged, or saved by a newer Blender?")
+    """Check the open scene, request["scene"]."""
+    if not bpy.data.filepath:
+        raise Refusal(f"{task.request['scene']}: Blender did not open it; is it damaged, or saved by a newer Blender?")
     refuse_missing_libraries()
     refuse_blocked_scripts(task)
     untrusted.refuse_stopped()
     leave_edit_mode()
-    return [f"picture missing: {image}" for image in missing_images()] + [*missing_caches()]
 
 
 def open_to_measure(task):
-    """The same, for launches that ask what light the scene has."""
-    warnings = open_scene(task)
+    """The same, for launches that ask what light the scene has; returns what the user should be warned of for that."""
+    open_scene(task)
     untrusted.settle_programs(task, bpy.context.scene)
-    return warnings + neutralise(bpy.context.scene)
+    return neutralise(bpy.context.scene)
 
 
-def imported_blend(task):
-    """Where the scene of an imported file is kept as a .blend; None for a scene that is one already."""
-    if os.path.splitext(task.request["scene"])[1].lower() not in IMPORTED:
-        return None
-    path = task.path("imported.blend")
-    save_copy(path, relative_remap=False, check_existing=False)
-    return path
+def scene_warnings():
+    """What the user should know of the open scene before anything is done with it."""
+    scene = bpy.context.scene
+    looked_at_before = CAMERA in scene  # lambert_entry.py made it, and has said what was wrong with the pictures
+    return import_notes(scene) + ([] if looked_at_before else [*picture_faults()]) + [*missing_caches()]
 
 
-def import_gltf(path):
-    if not os.path.isfile(path):
-        raise Refusal(f"{path}: no such file", IO)
-    mend_numpy()
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    if not hasattr(bpy.types, "IMPORT_SCENE_OT_gltf"):
-        raise Refusal(f"{path}: this Blender has no glTF importer (add-on io_scene_gltf2); install it, or "
-                      "save the scene as .blend", ENVIRONMENT)
+def import_notes(scene):
     try:
-        finished = bpy.ops.import_scene.gltf(filepath=path)
-    except RuntimeError as error:
-        raise Refusal(f"{path}: the glTF importer gave up: {last_line(error)}") from error
-    if "FINISHED" not in finished:
-        raise Refusal(f"{path}: the glTF importer refused the file; see the launch's stdout.log")
-    bpy.context.view_layer.update()
-
-
-def import_obj(path):
-    """By Blender's own importer (3.3 and later), which turns Y up into Z up."""
-    if not os.path.isfile(path):
-        raise Refusal(f"{path}: no such file", IO)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    try:
-        finished = bpy.ops.wm.obj_import(filepath=path)
-    except (AttributeError, RuntimeError) as error:
-        raise Refusal(f"{path}: the OBJ importer gave up: {last_line(error)}") from error
-    if "FINISHED" not in finished:
-        raise Refusal(f"{path}: the OBJ importer refused the file; see the launch's stdout.log")
-    bpy.context.view_layer.update()
-
-
-def mend_numpy():
-    """The importer of Blender 3.x uses numpy.bool and its kin, which numpy 1.24 took away."""
-    try:
-        import numpy
-    except ImportError as error:
-        raise Refusal("the glTF importer needs numpy, which this Blender's Python does not have; install it "
-                      "(Debian: python3-numpy), or save the scene as .blend", ENVIRONMENT) from error
-    for name, builtin in (("bool", bool), ("int", int), ("float", float), ("object", object), ("str", str)):
-        if name not in numpy.__dict__:
-            setattr(numpy, name, builtin)
-
-
-def last_line(error):
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return lines[-1].replace("Error: ", "", 1) if lines else repr(error)
+        notes = json.loads(scene.get(NOTES_PROPERTY, "[]"))
+    except (TypeError, ValueError):
+        return []  # a property of the user's own
+    return [note for note in notes if isinstance(note, str)] if isinstance(notes, list) else []
 
 
 def leave_edit_mode():
@@ -125,15 +70,6 @@ def refuse_missing_libraries():
                 path = bpy.path.abspath(block.library.filepath)
                 raise Refusal(f"linked library {path} no longer holds {block.name!r}; relink it in Blender",
                               object_name=block.name)
-
-
-def missing_images():
-    for image in bpy.data.images:
-        if image.source != "FILE" or image.packed_file or not image.filepath or not image.users:
-            continue
-        path = bpy.path.abspath(image.filepath, library=image.library)
-        if not os.path.exists(path):
-            yield path
 
 
 def refuse_blocked_scripts(task):

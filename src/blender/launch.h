@@ -1,6 +1,7 @@
 // blender/launch.h - one headless run of one entry script, with limits, told apart by how it ended.
 #pragma once
 
+#include "blender/blend_path.h"
 #include "blender/probe.h"
 
 #include <filesystem>
@@ -16,9 +17,9 @@ namespace rnmbake {
 /// What to run. `folder` is private to the launch and must exist: request.json, result.json, progress.jsonl,
 /// stdout.log, tmp/ and home/ are made in it.
 struct Launch {
-  std::string entry;                           // file name in the scripts folder: "bake_entry.py"
-  std::optional<std::filesystem::path> scene;  // a .blend to open; none: factory start-up
-  nlohmann::json request;                      // becomes request.json, with "nonce" and "folder" added
+  std::string entry;               // file name in the scripts folder: "bake_entry.py"
+  std::optional<BlendPath> scene;  // to open; none: factory start-up
+  nlohmann::json request;          // becomes request.json, with "nonce" and "folder" added
   std::filesystem::path folder;
   int threads = 0;  // 0: Blender's own choice
 };

@@ -156,13 +156,13 @@ fs::path file_in_work(const Launch& launch, const std::string& words) {
   const std::size_t to = from == std::string::npos ? from : words.find('\'', from + 1);
   std::error_code error;
   fs::path library = to == std::string::npos ? fs::path() : fs::path(words.substr(from + 1, to - from - 1));
-  return fs::is_regular_file(library, error) ? library : *launch.scene;
+  return fs::is_regular_file(library, error) ? library : launch.scene->path();
 }
 
 /// What a Blender fails over in a file that a later one saved is that file's.
 LaunchFailure crash_or_newer_file(const Launch& launch, const BlenderInfo& info, LaunchFailure failed) {
   if (!launch.scene || failed.kind == Kind::killed || failed.kind == Kind::script) return failed;
-  for (const fs::path& file : {file_in_work(launch, failed.details), *launch.scene}) {
+  for (const fs::path& file : {file_in_work(launch, failed.details), launch.scene->path()}) {
     const std::string newer = newer_blend(file, info);
     if (newer.empty()) continue;
     return failure(Kind::refused, static_cast<int>(ExitCode::environment),

@@ -51,13 +51,13 @@ std::optional<LaunchFailure> unreadable_scene(const Launch& launch, const Blende
   LaunchFailure failure;
   failure.kind = LaunchFailure::Kind::refused;
   try {
-    if (!read_blend_header(*launch.scene)) {
+    if (!read_blend_header(launch.scene->path())) {
       failure.code = static_cast<int>(ExitCode::invalid_input);
       failure.message = fmt::format("{}: is no .blend file, it does not begin as Blender's files do",
                                     launch.scene->string());
     } else {
       failure.code = static_cast<int>(ExitCode::environment);
-      failure.message = unreadable_blend(*launch.scene, info);
+      failure.message = unreadable_blend(launch.scene->path(), info);
     }
   } catch (const Error& error) {
     failure.code = static_cast<int>(error.code());
@@ -84,7 +84,7 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   argv.insert(argv.end(), {"--python-exit-code", "86"});
   if (launch.scene) {
     if (!trust.allow_scripts) argv.insert(argv.end(), {"--python", scripts.entry("guard.py").string()});
-    argv.push_back(fs::absolute(*launch.scene).string());
+    argv.push_back(launch.scene->string());
   }
   const std::string request = (fs::absolute(launch.folder) / "request.json").string();
   argv.insert(argv.end(), {"--python", scripts.entry(launch.entry).string(), "--", request});

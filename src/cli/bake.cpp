@@ -41,7 +41,7 @@ int bake(const ResolvedConfig& config) {
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(workspace, {"bake", bases}, scene.survey, list.targets);
-  return report(run_bake(workspace, {scene.survey, list, bases, scene.blend, scene.own, std::move(earlier)}),
+  return report(run_bake(workspace, {scene.survey, list, bases, scene.blends, std::move(earlier)}),
                 config.globals.output);
 }
 

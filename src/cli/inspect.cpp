@@ -28,8 +28,7 @@ void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
   config.globals.scene.materials = SceneSettings::Materials::full;  // look at the scene as it is
   LateBlender blender(config.globals);
   Workspace workspace(config, blender);
-  Survey survey = survey_scene(workspace).survey;
-  survey.scene_file = config.globals.scene.file.string();
+  const Survey survey = survey_scene(workspace).survey;
   const Inspection inspection = inspect_scene(survey, config);
   if (as_json) {
     out << inspection_json(survey, inspection).dump(2) << '\n';

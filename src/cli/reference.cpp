@@ -56,8 +56,8 @@ int reference(const ResolvedConfig& config) {
   const EarlierLightmaps earlier =
       find_earlier(workspace, {"reference", bases}, survey, exported.list.targets);
   SavedScene saved;
-  if (!exported.scene.blend.empty()) {
-    saved = save_scene_with_uvs(workspace, survey, exported.scene.own,
+  if (exported.blends) {
+    saved = save_scene_with_uvs(workspace, survey, exported.blends->own,
                                 earlier.add_to(uvs_of(exported.list.targets)));
   }
   log::info("tracing {} x {} against Blender {}", counted(exported.list.targets.size(), "lightmap"),

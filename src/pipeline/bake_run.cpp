@@ -80,7 +80,7 @@ class BakeRun {
               workspace_.blender().info().version_text);
     DeliveryDesk desk(context, settings_.output, notes_);
     BakeOutcome outcome;
-    outcome.timings = run_dispatches(workspace_, context, subject_.blend, desk);
+    outcome.timings = run_dispatches(workspace_, context, subject_.blends.shown, desk);
     outcome.deliveries = desk.deliveries();
     if (may_be_lit(subject_.survey)) warn_of_black(list_.targets, outcome.deliveries);
     write_records(outcome);
@@ -176,7 +176,7 @@ class BakeRun {
   }
 
   void write_records(const BakeOutcome& outcome) {
-    const SavedScene saved = save_scene_with_uvs(workspace_, subject_.survey, subject_.own,
+    const SavedScene saved = save_scene_with_uvs(workspace_, subject_.survey, subject_.blends.own,
                                                  subject_.earlier.add_to(uvs_of(list_.targets)));
     write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved,
                     subject_.earlier,

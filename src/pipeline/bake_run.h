@@ -6,10 +6,10 @@
 #include "pipeline/dispatcher.h"
 #include "pipeline/earlier_lightmaps.h"
 #include "pipeline/make_targets.h"
+#include "pipeline/scene_survey.h"
 #include "pipeline/workspace.h"
 #include "scene/survey.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace rnmbake {
@@ -25,8 +25,7 @@ struct BakeSubject {
   const Survey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
-  std::filesystem::path blend;    // what Blender opens: the scene, or a .blend made from it
-  std::filesystem::path own;      // the same with the user's own materials, to be saved with new UVs
+  SceneBlends blends;             // `shown` is baked, `own` saved with new UVs
   EarlierLightmaps earlier = {};  // stays in the manifest
 };
 

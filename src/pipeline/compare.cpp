@@ -282,6 +282,9 @@ Report compare_lightmaps(const CompareOptions& options) {
   report.candidate_only = without_partner(options, candidate.folder, reference.folder);
   report.reference_only = without_partner(options, reference.folder, candidate.folder);
   report.notes = reference.folder.notes;
+  for (const std::string& note : candidate.folder.notes) {
+    if (std::ranges::find(report.notes, note) == report.notes.end()) report.notes.push_back(note);
+  }
   report.versions.emplace_back("rnmbake", version);
   tell_of_side(report.candidate_label, load_lightmap(*pairs.front().first), report);
   tell_of_side(report.reference_label, load_lightmap(*pairs.front().second), report);

@@ -38,9 +38,10 @@ LightmapPlace place_of(const std::filesystem::path& manifest, const json& entry)
   return place;
 }
 
-/// What is outside the model besides objects, which carry their own list: "light 'Lamp': node tree".
+/// Warnings, and what is outside the model besides objects, which carry their own list: "light 'Lamp': node
+/// tree".
 std::vector<std::string> notes_of(const json& manifest) {
-  std::vector<std::string> notes;
+  auto notes = manifest.value("warnings", std::vector<std::string>{});
   for (const json& outside : manifest.value("outside_model", json::array())) {
     const auto owner = outside.at("owner").get<std::string>();
     if (owner.starts_with("object ")) continue;

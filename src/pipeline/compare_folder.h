@@ -22,7 +22,7 @@ struct LightmapFolder {
   bool single_file = false;           // `path` is a lightmap itself, under the key of its header
   std::vector<LightmapPlace> places;  // in the manifest's order
   std::vector<std::string> failed;    // keys of objects that were not baked
-  std::vector<std::string> notes;     // lamps and world that the tracer could not follow, one line each
+  std::vector<std::string> notes;     // warnings of the scene; lamps and world that could not be traced
 
   [[nodiscard]] const LightmapPlace* find(const std::string& key) const;
 };

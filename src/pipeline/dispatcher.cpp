@@ -56,7 +56,7 @@ double total_work(const Plan& plan) {
 
 class Dispatcher {
  public:
-  Dispatcher(Workspace& workspace, const BakeContext& context, fs::path blend, DeliveryDesk& desk)
+  Dispatcher(Workspace& workspace, const BakeContext& context, BlendPath blend, DeliveryDesk& desk)
       : workspace_(workspace),
         context_(context),
         blend_(std::move(blend)),
@@ -125,7 +125,7 @@ class Dispatcher {
     launch.threads = workspace_.threads(jobs_);
     BakeRequest request = make_request(task.dispatch, launch.folder);
     launch.request = std::move(request.json);
-    launch.request.update(scene_request(workspace_, blend_));
+    launch.request.update(scene_request(workspace_, blend_.path()));
     const LaunchOutcome outcome = workspace_.blender().run(
         launch, workspace_.limits(), [&](const ProgressEvent& event) { show(task.dispatch, event); });
     if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
@@ -249,7 +249,7 @@ class Dispatcher {
 
   Workspace& workspace_;
   const BakeContext& context_;
-  fs::path blend_;
+  BlendPath blend_;
   DeliveryDesk& desk_;
   int jobs_;
 
@@ -272,7 +272,7 @@ int choose_jobs(const BakeSettings& settings, std::size_t dispatches) {
   return std::clamp(static_cast<int>(dispatches), 1, wanted);
 }
 
-BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context, const fs::path& blend,
+BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context, const BlendPath& blend,
                            DeliveryDesk& desk) {
   return Dispatcher(workspace, context, blend, desk).run();
 }

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "bake/request.h"
+#include "blender/blend_path.h"
 #include "pipeline/delivery.h"
 #include "pipeline/workspace.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace rnmbake {
@@ -29,7 +29,7 @@ struct BakeTimings {
 /// Throws Interrupted where the user stops, Error where going on makes no sense (a full disk, no such
 /// device).
 [[nodiscard]] BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context,
-                                         const std::filesystem::path& blend, DeliveryDesk& desk);
+                                         const BlendPath& blend, DeliveryDesk& desk);
 
 /// Blenders at a time: --jobs, else one for joined bakes and one for each core otherwise.
 [[nodiscard]] int choose_jobs(const BakeSettings& settings, std::size_t dispatches);

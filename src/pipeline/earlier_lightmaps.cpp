@@ -190,7 +190,7 @@ class Search {
   const Survey& saved_survey(const std::string& name) {
     if (!saved_) {
       log::info("reading the UVs of earlier lightmaps from {}", beside(name).string());
-      saved_ = survey_file(workspace_, beside(name)).survey;
+      saved_ = survey_file(workspace_, beside(name));
     }
     return *saved_;
   }

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/object_notes.h"
 #include "pipeline/launch_answer.h"
 
 #include <algorithm>
@@ -15,15 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The launch that writes down what a tracer needs of a lambert scene.
-Exchange launch_export(Workspace& workspace, const fs::path& blend) {
-  Launch launch;
-  launch.entry = "export_entry.py";
-  launch.scene = blend;
-  launch.request = scene_request(workspace, blend);
-  launch.folder = workspace.new_folder("export");
-  const fs::path folder = launch.folder;
-  const nlohmann::json answer = workspace.run(std::move(launch));
-  return read_exported(answered_file(answer, "survey", folder));
+Exchange launch_export(Workspace& workspace, const BlendPath& lambert) {
+  const Launch launch = launch_on(workspace, "export_entry.py", "export", lambert);
+  const nlohmann::json answer = workspace.run(launch);
+  return read_exported(answered_file(answer, "survey", launch.folder));
 }
 
 void set_layer(Mesh& mesh, const std::string& name, const std::vector<Vec2>& uv) {
@@ -68,16 +62,19 @@ bool is_exchange(const fs::path& file) {
 ExportedScene export_scene(Workspace& workspace) {
   const fs::path file = workspace.settings().scene.file;
   ExportedScene result;
-  result.scene.own = fs::absolute(file);
+  std::vector<std::string> logged;
   if (is_exchange(file)) {
     result.exchange = read_exchange(file);
   } else {
-    result.scene.blend = make_lambert_scene(workspace, result.scene.own);
+    const BlendPath own = import_scene(workspace, file);
+    LambertScene lambert = make_lambert_scene(workspace, own);
+    logged = std::move(lambert.warnings);
+    result.blends = SceneBlends{lambert.blend, own};
     log::info("writing down the scene for the tracer");
-    result.exchange = launch_export(workspace, result.scene.blend);
+    result.exchange = launch_export(workspace, lambert.blend);
     result.exchange.survey.scene_file = file.string();
   }
-  warn_of_objects(result.exchange.survey.warnings);
+  log_warnings(result.exchange.survey, logged);
   if (result.exchange.survey.objects.empty()) {
     fail(ExitCode::invalid_input,
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",

@@ -6,19 +6,21 @@
 #include "pipeline/workspace.h"
 #include "scene/exchange.h"
 
+#include <filesystem>
+#include <optional>
+
 namespace rnmbake {
 
 struct ExportedScene {
   Exchange exchange;
-  TargetList list;  // of exchange.survey's objects
-  SurveyedScene
-      scene;  // its survey is empty: exchange.survey is it; `blend` is the one with lambert materials
+  TargetList list;                    // of exchange.survey's objects
+  std::optional<SceneBlends> blends;  // none where the scene was a .rnmscene already
 };
 
 /// Launches Blender twice (albedo and emission, then everything else), and once more where something has to
 /// be unwrapped: meshes then have their UVs as layer "Lightmap". The materials are the lambert ones whatever
-/// the settings say. A scene file that is a .rnmscene already is read instead, and `scene.blend` is then
-/// empty. Throws like survey_scene(), make_targets() and read_exchange().
+/// the settings say. A scene file that is a .rnmscene already is read instead. Throws like survey_scene(),
+/// make_targets() and read_exchange().
 [[nodiscard]] ExportedScene export_scene(Workspace& workspace);
 
 /// Whether the scene of the settings is a .rnmscene file.

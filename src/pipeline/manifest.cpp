@@ -216,6 +216,7 @@ nlohmann::json make_manifest(const ManifestInput& input) {
                 {"bases", to_json(input.bases)},
                 {"recipe", common.recipe},
                 {"bounces", common.bounces},
+                {"warnings", input.survey.warnings},
                 {"objects", list_objects(input)},
                 {"skipped", list_skipped(input)}};
   std::visit([&](const auto& record) { add_to_top(record, input.settings, manifest); }, input.record);

@@ -56,7 +56,7 @@ class ViewRun {
     ViewComparison view;
     view.name = camera_of(exported_.exchange).name;
     view.pictures.push_back({"truth", truth_.mean()});
-    if (options_.with_cycles && !exported_.scene.blend.empty())
+    if (options_.with_cycles && exported_.blends)
       view.pictures.push_back(judged(options_.own_materials ? "Cycles, own materials" : "Cycles", cycles()));
     for (const Decoded& decode : decodes) {
       if (const auto why = lightmaps_.obstacle(decode.variant)) {

@@ -53,15 +53,12 @@ std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportedScene&
                                       const CyclesOptions& options) {
   const BakeSettings& settings = workspace.settings();
   const Camera& camera = camera_of(exported.exchange);
-  if (exported.scene.blend.empty()) {
+  if (!exported.blends) {
     fail(ExitCode::usage, "{}: Cycles needs the Blender scene that this was exported from; give that .blend",
          settings.scene.file.string());
   }
-  const fs::path& scene = options.own_materials ? exported.scene.own : exported.scene.blend;
-  Launch launch;
-  launch.entry = "render_entry.py";
-  if (scene.extension() == ".blend") launch.scene = scene;  // glTF is imported by the script
-  launch.request = scene_request(workspace, scene);
+  const BlendPath& scene = options.own_materials ? exported.blends->own : exported.blends->shown;
+  Launch launch = launch_on(workspace, "render_entry.py", "render", scene);
   launch.request["camera"] = to_json(camera);
   launch.request["pixel_shape"] = pixel_shape(camera);
   launch.request["width"] = options.width;
@@ -73,7 +70,6 @@ std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportedScene&
                               {"seed", 0},
                               {"clamp", 0},
                               {"device", device_of(settings)}};
-  launch.folder = workspace.new_folder("render");
   const fs::path folder = launch.folder;
   log::info("Cycles renders {} x {} pixels", options.width, options.height);
   const json answer = workspace.run(std::move(launch));

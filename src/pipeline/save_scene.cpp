@@ -84,16 +84,12 @@ std::vector<SavedUvs> uvs_of(const std::vector<Target>& targets) {
   return objects;
 }
 
-SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const fs::path& blend,
+SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const BlendPath& own,
                                const std::vector<SavedUvs>& objects) {
   const BakeSettings& settings = workspace.settings();
   if (!wanted(settings.output.save_scene, objects)) return {};
-  Launch launch;
-  launch.entry = "save_uvs_entry.py";
-  if (blend.extension() == ".blend") launch.scene = blend;  // glTF is imported by the script
-  launch.request = scene_request(workspace, blend);
-  launch.request["imported"] = settings.scene.file.extension() != ".blend";
-  launch.folder = workspace.new_folder("save-uvs");
+  Launch launch = launch_on(workspace, "save_uvs_entry.py", "save-uvs", own);
+  launch.request["imported"] = !is_blend(settings.scene.file);
   ObjectList list(survey, launch.folder);
   for (const SavedUvs& one : objects) list.add(one);
   launch.request["objects"] = std::move(list.list);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "bake/targets.h"
+#include "blender/blend_path.h"
 #include "pipeline/workspace.h"
 #include "scene/survey.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,8 +37,7 @@ struct SavedUvs {
 /// Writes DIR/<scene>.lightmap-uvs.blend, whole or not at all, if the settings want it (when_unwrapped: only
 /// if something was): the lightmap is every object's second UV layer, relative paths lead where they did.
 /// Throws as Workspace::run() and Error(io).
-[[nodiscard]] SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey,
-                                             const std::filesystem::path& blend,
+[[nodiscard]] SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const BlendPath& own,
                                              const std::vector<SavedUvs>& objects);
 
 }  // namespace rnmbake

@@ -66,7 +66,7 @@ Survey survey_meshes(Workspace& workspace, const fs::path& file) {
   if (!fs::is_regular_file(file, ignored))
     fail(ExitCode::io, "{}: no such file; check the path", file.string());
   log::info("reading {}", file.string());
-  Survey survey = survey_file(workspace, file).survey;
+  Survey survey = survey_file(workspace, file);
   for (const std::string& warning : survey.warnings) log::debug("{}", warning);
   if (!survey.objects.empty()) return survey;
   fail(ExitCode::invalid_input, "{}: holds no mesh that renders: is everything hidden from rendering?",

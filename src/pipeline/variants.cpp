@@ -49,9 +49,9 @@ BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const Bak
   }
   Workspace workspace(config, base.workspace.blender());
   const bool lambert = variant.materials == SceneSettings::Materials::lambert;
-  const SurveyedScene& scene = base.exported.scene;
-  return run_bake(workspace, {base.exported.exchange.survey, halved, base.bases,
-                              lambert ? scene.blend : scene.own, scene.own});
+  SceneBlends blends = base.exported.blends.value();
+  if (!lambert) blends.shown = blends.own;
+  return run_bake(workspace, {base.exported.exchange.survey, halved, base.bases, blends});
 }
 
 ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, const TraceVariant& variant) {

@@ -54,7 +54,7 @@ struct Survey {
   std::string world;  // "none", "constant", "picture", "nodes"
   double world_strength = 0;
   std::array<double, 3> world_color{1, 1, 1};
-  std::vector<std::string> warnings;  // things that Blender said while it evaluated the scene
+  std::vector<std::string> warnings;  // what the user should know of the scene, one line each
 
   [[nodiscard]] const Mesh& mesh_of(const SceneObject& object) const {
     return meshes[static_cast<std::size_t>(object.mesh)];

@@ -80,7 +80,7 @@ TEST_F(BlendFile, PipesAreNotOpened) {
 LaunchFailure crash(const fs::path& folder, const fs::path& scene, const BlenderInfo& info,
                     const std::string& words) {
   Launch launch;
-  launch.scene = scene;
+  launch.scene = BlendPath(scene);
   launch.folder = folder;
   write_atomically(folder / "stdout.log", words);
   ProcessResult process;

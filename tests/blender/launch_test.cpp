@@ -207,12 +207,12 @@ TEST(Launch, AFullDiskIsNamed) {
 TEST(Launch, ASceneThatCannotBeOpenedIsRefused) {
   REQUIRE_BLENDER(blender);
   Bench bench("    return {}");
-  bench.launch.scene = bench.folder.path() / "no.blend";
+  bench.launch.scene = BlendPath(bench.folder.path() / "no.blend");
   LaunchFailure failure = failure_of(bench.with(*blender));
   EXPECT_EQ(failure.kind, Kind::refused);
   EXPECT_EQ(failure.code, static_cast<int>(ExitCode::io));
   EXPECT_TRUE(holds(failure.message, "no.blend")) << failure.message;
-  write_atomically(*bench.launch.scene, "this is no .blend at all");
+  write_atomically(bench.launch.scene->path(), "this is no .blend at all");
   failure = failure_of(bench.with(*blender));
   EXPECT_EQ(failure.kind, Kind::refused);
   EXPECT_EQ(failure.code, static_cast<int>(ExitCode::invalid_input));
@@ -228,7 +228,7 @@ TEST(Launch, ScriptsInsideTheSceneRunOnlyIfAllowed) {
       "    return {}");
   finished(maker.with(*blender));
   Bench bench("    return {'ran': 'ran' in bpy.context.scene, 'blocked': bpy.app.autoexec_fail}");
-  bench.launch.scene = maker.launch.folder / "auto.blend";
+  bench.launch.scene = BlendPath(maker.launch.folder / "auto.blend");
   const auto untrusted = finished(bench.with(*blender)).result;
   EXPECT_FALSE(untrusted.at("ran"));
   EXPECT_TRUE(untrusted.at("blocked"));
@@ -282,7 +282,7 @@ TEST(LaunchArgv, GatesWhatOldBlendersDoNotKnow) {
   Launch launch;
   launch.entry = "probe_entry.py";
   launch.folder = "/f";
-  launch.scene = "/s.blend";
+  launch.scene = BlendPath("/s.blend");
   launch.threads = 3;
   info.version = {4, 1, 9};
   const std::string entry = (scripts.path() / "probe_entry.py").string();

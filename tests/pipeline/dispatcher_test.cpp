@@ -19,7 +19,7 @@ struct Bake {
         workspace(scene.config(), blender),
         desk(context, scene.settings().output, scene.notes()) {}
 
-  BakeTimings run() { return run_dispatches(workspace, context, "scene.blend", desk); }
+  BakeTimings run() { return run_dispatches(workspace, context, BlendPath("scene.blend"), desk); }
 
   Invented scene;
   BakeContext context;

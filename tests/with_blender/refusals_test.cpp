@@ -81,11 +81,13 @@ TEST_F(RefusalsWithBlender, NameAShaderProgram) {
   EXPECT_NE(message.find("--allow-scripts"), std::string::npos) << message;
 }
 
-TEST_F(RefusalsWithBlender, AreNotMadeForMissingFiles) {
+TEST_F(RefusalsWithBlender, AreNotMadeForFilesThatCannotBeHad) {
   const Survey survey = session_->survey(session_->file("lost_files.blend"));
-  ASSERT_EQ(survey.warnings.size(), 2U);
+  ASSERT_EQ(survey.warnings.size(), 3U);
+  EXPECT_TRUE(survey.warnings[0].starts_with("picture missing: ")) << survey.warnings[0];
   EXPECT_NE(survey.warnings[0].find("lost.png"), std::string::npos);
-  EXPECT_NE(survey.warnings[1].find("object 'cube': the cache of its modifier 'cache' is missing"),
+  EXPECT_TRUE(survey.warnings[1].starts_with("picture unreadable: 'text.png' (")) << survey.warnings[1];
+  EXPECT_NE(survey.warnings[2].find("object 'cube': the cache of its modifier 'cache' is missing"),
             std::string::npos);
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,15 +43,13 @@ class SurveySession {
     if (!result.succeeded()) fail(ExitCode::tasks_failed, "{}: {}", script, result.output);
   }
 
+  /// What is no .blend is imported first.
   LaunchOutcome launch(const std::filesystem::path& scene, const std::string& entry = "survey_entry.py") {
-    Launch launch;
-    launch.entry = entry;
-    if (scene.extension() == ".blend") launch.scene = scene;
-    launch.request = {{"scene", scene.string()}};
-    launch.folder = folder_.path() / ("launch" + std::to_string(launches_++));
-    std::filesystem::create_directory(launch.folder);
-    last_folder_ = launch.folder;
-    return blender_.run(launch, LaunchLimits{}, [](const ProgressEvent&) {});
+    if (is_blend(scene)) return launch_on(BlendPath(scene), scene, entry);
+    const LaunchOutcome imported = launch_on(std::nullopt, scene, "import_entry.py");
+    if (!std::holds_alternative<Finished>(imported)) return imported;
+    const auto blend = std::get<Finished>(imported).result.at("blend").get<std::string>();
+    return launch(last_folder_ / blend, entry);
   }
 
   Survey survey(const std::filesystem::path& scene) {
@@ -65,6 +64,18 @@ class SurveySession {
   [[nodiscard]] const std::filesystem::path& last_folder() const { return last_folder_; }
 
  private:
+  LaunchOutcome launch_on(const std::optional<BlendPath>& blend, const std::filesystem::path& scene,
+                          const std::string& entry) {
+    Launch launch;
+    launch.entry = entry;
+    launch.scene = blend;
+    launch.request = {{"scene", scene.string()}};
+    launch.folder = folder_.path() / ("launch" + std::to_string(launches_++));
+    std::filesystem::create_directory(launch.folder);
+    last_folder_ = launch.folder;
+    return blender_.run(launch, LaunchLimits{}, [](const ProgressEvent&) {});
+  }
+
   const std::string scenes = RNMBAKE_SOURCE_DIR "/tests/with_blender/scenes/";
   TempFolder folder_;
   std::filesystem::path last_folder_;

@@ -102,7 +102,7 @@ Survey Workbench::survey(const fs::path& blend) {
   RealBlender blender(blender_, RealBlender::Options{{}, fs::path(RNMBAKE_SOURCE_DIR "/blender_scripts")});
   Launch launch;
   launch.entry = "survey_entry.py";
-  launch.scene = blend;
+  launch.scene = BlendPath(blend);
   launch.request = {{"scene", blend.string()}};
   launch.folder = new_path("survey");
   fs::create_directory(launch.folder);

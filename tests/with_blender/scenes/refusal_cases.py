@@ -69,6 +69,9 @@ def main(folder):
     fresh("cube")
     image = bpy.data.images.new("lost", 4, 4)
     image.source, image.filepath, image.use_fake_user = "FILE", path("lost.png"), True
+    with open(path("text.png"), "w", encoding="utf-8") as stream:
+        stream.write("no picture at all")
+    bpy.data.images.load(path("text.png")).use_fake_user = True
     bpy.context.object.modifiers.new("cache", "MESH_CACHE").filepath = path("lost.mdd")
     save(path("lost_files.blend"))
 
