@@ -220,6 +220,19 @@ TEST(Unwrap, HasNoChartsWhereNothingHasArea) {
   EXPECT_EQ(made.unwrapping.uv.size(), mesh.loop_vertex.size());
 }
 
+TEST(Unwrap, TakesLinesForWhatTheyAreInSpiteOfRounding) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-10, 10), along(-1, 1);
+  MeshMaker maker;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d place(at(random), at(random), at(random)), direction(at(random), at(random), at(random));
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 3; ++k) corners.emplace_back(place + direction * along(random));
+    maker.add(corners);
+  }
+  EXPECT_TRUE(unwrapped(maker.take(), 64, 2).charts.charts.empty());
+}
+
 TEST(Unwrap, EndsAtAnySize) {
   for (const float size : {1e-20F, 1e-12F, 1e-6F, 1e6F, 1e15F}) {
     Mesh mesh = box();
