@@ -17,8 +17,9 @@ namespace {
 constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one that is a picture still
 
 /// Settings that decide what is seen.
-constexpr std::array view_settings{"bounces", "seed",    "device",  "allow_scripts", "blender_version",
-                                   "blender", "scripts", "threads", "timeout",       "keep_temporary"};
+constexpr std::array view_settings{"bounces",         "seed",           "device",        "allow_scripts",
+                                   "blender_version", "blender",        "scripts",       "threads",
+                                   "timeout",         "launch_timeout", "keep_temporary"};
 
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
