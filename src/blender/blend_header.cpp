@@ -70,10 +70,11 @@ bool is_later_form(const BlendHeader& header, const BlenderVersion& version) {
   return header.major >= 5 && version < BlenderVersion{4, 5, 0};
 }
 
-std::string saved_by(const std::filesystem::path& file, const BlendHeader& header,
-                     const BlenderInfo& blender) {
-  return fmt::format("{} was saved by Blender {}.{}, this is {}", file.string(), header.major, header.minor,
-                     blender.version_text);
+std::string said(const std::filesystem::path& file, const BlendHeader& header, const BlenderInfo& blender,
+                 const std::string& which) {
+  return fmt::format(
+      "{} was saved by Blender {}.{}, this is {}, {}; name Blender {}.{} or newer with --blender",
+      file.string(), header.major, header.minor, blender.version_text, which, header.major, header.minor);
 }
 
 }  // namespace
@@ -90,20 +91,15 @@ std::optional<BlendHeader> read_blend_header(const std::filesystem::path& file) 
 std::string unreadable_blend(const std::filesystem::path& file, const BlenderInfo& blender) {
   const auto header = read_blend_header(file);
   if (!header || !is_later_form(*header, blender.version)) return "";
-  return saved_by(file, *header, blender) +
-         fmt::format(", which cannot read it; name Blender {}.{} or newer with --blender", header->major,
-                     header->minor);
+  return said(file, *header, blender, "which cannot read it");
 }
 
-std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender) {
+std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender,
+                        const std::string& which) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return "";  // whoever opens it says so
   const auto header = read_blend_header(file);
-  if (!header || !is_newer(*header, blender.version)) return "";
-  return saved_by(file, *header, blender) +
-         fmt::format(
-             ", which does not know all that may be in it; name Blender {}.{} or newer with --blender",
-             header->major, header->minor);
+  return header && is_newer(*header, blender.version) ? said(file, *header, blender, which) : "";
 }
 
 }  // namespace rnmbake

@@ -163,10 +163,10 @@ fs::path file_in_work(const Launch& launch, const std::string& words) {
 LaunchFailure crash_or_newer_file(const Launch& launch, const BlenderInfo& info, LaunchFailure failed) {
   if (!launch.scene || failed.kind == Kind::killed || failed.kind == Kind::script) return failed;
   for (const fs::path& file : {file_in_work(launch, failed.details), launch.scene->path()}) {
-    const std::string newer = newer_blend(file, info);
-    if (newer.empty()) continue;
-    return failure(Kind::refused, static_cast<int>(ExitCode::environment),
-                   fmt::format("{} ({})", newer, failed.message), failed.details);
+    const std::string newer =
+        newer_blend(file, info, fmt::format("which failed over it ({})", failed.message));
+    if (!newer.empty())
+      return failure(Kind::refused, static_cast<int>(ExitCode::environment), newer, failed.details);
   }
   return failed;
 }

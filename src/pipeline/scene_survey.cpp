@@ -14,9 +14,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Once it has opened: what Blender does not know it leaves out without a word.
+void warn_of_newer(const Workspace& workspace, const BlendPath& scene) {
+  const std::string newer =
+      newer_blend(scene.path(), workspace.blender().info(), "which leaves out what it does not know");
+  if (!newer.empty()) log::warn("{}", newer);
+}
+
 Survey survey_blend(Workspace& workspace, const BlendPath& blend) {
   const Launch launch = launch_on(workspace, "survey_entry.py", "survey", blend);
   const nlohmann::json answer = workspace.run(launch);
+  warn_of_newer(workspace, blend);
   return read_survey(answered_file(answer, "survey", launch.folder));
 }
 
@@ -37,11 +45,7 @@ Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, c
 }
 
 BlendPath import_scene(Workspace& workspace, const fs::path& file) {
-  if (is_blend(file)) {
-    const std::string newer = newer_blend(file, workspace.blender().info());
-    if (!newer.empty()) log::warn("{}", newer);
-    return BlendPath(file);
-  }
+  if (is_blend(file)) return BlendPath(file);
   Launch launch;
   launch.entry = "import_entry.py";
   launch.request = scene_request(workspace, file);
@@ -54,6 +58,7 @@ LambertScene make_lambert_scene(Workspace& workspace, const BlendPath& own) {
   log::info("baking albedo and emission of every material");
   const Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", own);
   const nlohmann::json answer = workspace.run(launch);
+  warn_of_newer(workspace, own);
   LambertScene result{BlendPath(answered_file(answer, "blend", launch.folder)),
                       answer.at("warnings").get<std::vector<std::string>>()};
   warn_of_objects(result.warnings);

@@ -50,7 +50,7 @@ TEST(TextTable, ACellIsOneLine) {
 TEST(ObjectNotes, ManyObjectsMakeOneLine) {
   ObjectNotes notes(log::Level::warning);
   for (int i = 0; i < 137; ++i)
-    notes.add("o" + std::to_string(i), "corners without", std::to_string(i) + " corners");
+    notes.add(fmt::format("o{}", i), "corners without", fmt::format("{} corners", i));
   notes.add("lone", "rest", "1 rest");
   notes.add_line("world: nodes");
   notes.add_line("a line of its own");
