@@ -178,9 +178,9 @@ class BakeRun {
   void write_records(const BakeOutcome& outcome) {
     const SavedScene saved = save_scene_with_uvs(workspace_, subject_.survey, subject_.blends.own,
                                                  subject_.earlier.add_to(uvs_of(list_.targets)));
-    write_manifest({settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved,
-                    subject_.earlier,
-                    BakeRecord{horizons_, heights_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
+    write_manifest(
+        {settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved, subject_.earlier,
+         BakeRecord{horizons_, heights_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
   }
 
   Workspace& workspace_;

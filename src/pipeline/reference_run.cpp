@@ -76,8 +76,8 @@ class ReferenceRun {
     LostDirections lost;
     for (std::size_t i = 0; i < list_.targets.size(); ++i) {
       const Target& target = list_.targets[i];
-      auto surface = std::make_shared<const Surface>(
-          surface_of(survey(), target, lost, subject_.scene.origin()));
+      auto surface =
+          std::make_shared<const Surface>(surface_of(survey(), target, lost, subject_.scene.origin()));
       notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, std::move(surface)});
       const Kind kind{target.flip_green, samples(i), list_.settings[i].seed};
       groups[kind].push_back(i);
