@@ -54,7 +54,7 @@ TEST(ValidateFinding, WhatTheReferenceDoesNotFollowIsNoBias) {
   of.not_followed = {"light 'Lamp': node tree", "world: volume"};
   EXPECT_EQ(
       receiver_finding(of),
-      "receiver: not followed by the reference: light 'Lamp': node tree and 1 more; 1 of 2 objects differ "
+      "receiver: not followed by the reference: light 'Lamp': node tree and 1 more; 1 of 2 objects differs "
       "beyond the noise, most of all a (-81.9 %)");
   Report fine = report({object("a", {})});
   fine.not_followed = of.not_followed;

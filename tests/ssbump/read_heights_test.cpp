@@ -100,7 +100,7 @@ TEST_F(Heights, OfTwelveBitsInSixteenAreSaid) {
   };
   const std::string twelve = said(4095 / 65535.0F, Storage::u16);
   EXPECT_NE(twelve.find("no value above 4095 of 65535, as of 12 bits"), std::string::npos) << twelve;
-  EXPECT_NE(twelve.find("--height 0.7071 "), std::string::npos) << "sqrt(2) / 32 x 65535 / 4095: " << twelve;
+  EXPECT_NE(twelve.find("--height 0.7073 "), std::string::npos) << "sqrt(2) / 32 x 65535 / 4095: " << twelve;
   EXPECT_NE(said(1023 / 65535.0F, Storage::u16).find("as of 10 bits"), std::string::npos);
   EXPECT_EQ(said(4096 / 65535.0F, Storage::u16), "");
   EXPECT_EQ(said(4095 / 65535.0F, Storage::full), "");
