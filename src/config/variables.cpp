@@ -14,7 +14,9 @@ namespace rnmbake {
 
 namespace {
 
-constexpr const char* of_the_tests[] = {"RNMBAKE_BINARY", "RNMBAKE_CHROMIUM", "RNMBAKE_SCREENSHOTS"};
+/// Of the tests, and the mark of what a launch started (process/tree.h), which may be a rnmbake.
+constexpr const char* of_no_setting[] = {"RNMBAKE_BINARY", "RNMBAKE_CHROMIUM", "RNMBAKE_SCREENSHOTS",
+                                         "RNMBAKE_LAUNCHED_BY"};
 
 }  // namespace
 
@@ -29,7 +31,7 @@ std::vector<std::string> variables_set() {
 }
 
 void refuse_unknown_variables(const std::vector<std::string>& names) {
-  std::vector<std::string> known(std::begin(of_the_tests), std::end(of_the_tests));
+  std::vector<std::string> known(std::begin(of_no_setting), std::end(of_no_setting));
   for (const Setting& setting : settings()) known.push_back(setting.environment());
   for (const std::string& name : names) {
     if (!name.starts_with("RNMBAKE_") || std::ranges::find(known, name) != known.end()) continue;
