@@ -182,9 +182,9 @@ def _with_modifiers(wood, tin):
 
 
 def _without_mesh(tin):
-    """A rope (curve) and a label (text): they have faces only where they are rendered."""
+    """A thick rope (curve) and a label (text): they have faces only where they are rendered."""
     curve = bpy.data.curves.new("rope", "CURVE")
-    curve.dimensions, curve.bevel_depth, curve.resolution_u, curve.bevel_resolution = "3D", 0.02, 4, 1
+    curve.dimensions, curve.bevel_depth, curve.resolution_u, curve.bevel_resolution = "3D", 0.15, 4, 1
     spline = curve.splines.new("POLY")
     spline.points.add(5)
     for i, point in enumerate(spline.points):
