@@ -51,7 +51,7 @@ json to_json(const BakeTimings& timings) {
 void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size_t index, json& entry) {
   const LightmapMetadata& metadata = input.notes[index].metadata;
   entry["horizon"] = to_json(bake.horizons[index], metadata.horizon);
-  if (bake.heights[index] > 0) entry["height"] = bake.heights[index];
+  entry["receiver_height"] = bake.heights[index];
 }
 
 void add_to_object(const ReferenceRecord& reference, const ManifestInput& input, std::size_t index,
