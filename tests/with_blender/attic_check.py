@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 SCENES = HERE.parents[1] / "scenes"
 LIMIT_SECONDS = 600
 THINGS = 64
-SMALL = ("--resolution", "32", "--samples", "4", "--bases", "flat,rnm0")
+SMALL = ("--resolution", "32", "--samples", "4")
 # docs/exit-codes.md
 OK = 0
 
