@@ -185,9 +185,9 @@ TEST_F(Validate, AThresholdThatIsExceededIsExitCode7) {
 }
 
 TEST_F(Validate, AWrongLimitIsSaidBeforeTheWork) {
-  const Ended wrong = validate("wrong", {"--fail-above", "sharpness=2%"});
+  const Ended wrong = validate("wrong_limit", {"--fail-above", "sharpness=2%"});
   EXPECT_EQ(wrong.exit_code, 1) << wrong.output;
-  EXPECT_FALSE(fs::exists(folder_->path() / "wrong"));
+  EXPECT_FALSE(fs::exists(folder_->path() / "wrong_limit"));
 }
 
 }  // namespace
