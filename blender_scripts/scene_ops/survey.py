@@ -156,11 +156,11 @@ def survey_scene(task, surveyor=None):
 
 
 def volume_warnings(survey):
-    """One line for each material with a volume: Cycles' bakes begin outside of every object."""
+    """One line for each material with a volume: Cycles' bakes begin outside of every object. Clouds have no key."""
     for name, about in survey["materials"].items():
         if "volume" in about["outside_model"]:
-            owner = next(entry["key"] for entry in survey["objects"] if name in entry["slots"])
-            yield f"{owner}: material '{name}' has a volume; what lies inside is baked as if it lay outside, its first light " \
+            owner = next((f"{entry['key']}: " for entry in survey["objects"] if name in entry["slots"]), "")
+            yield f"{owner}material '{name}' has a volume; what lies inside is baked as if it lay outside, its first light " \
                   "undimmed; a medium around everything is better given to the world"
 
 

@@ -122,6 +122,14 @@ TEST_F(SurveyWithBlender, ListsMeshesWithoutFaces) {
   EXPECT_FALSE(has("path_without_faces") && mesh("path_without_faces").triangles() > 0);
 }
 
+TEST_F(SurveyWithBlender, SaysOfCloudsThatTheyAreVolumes) {
+  EXPECT_FALSE(has("cloud"));
+  const auto of_smoke = [](const std::string& line) {
+    return line.starts_with("material 'smoke' has a volume; ");
+  };
+  EXPECT_EQ(std::ranges::count_if(survey_->warnings, of_smoke), 1);
+}
+
 TEST_F(SurveyWithBlender, KnowsUvLayersOfObjectsSavedInEditMode) {
   EXPECT_EQ(mesh("edit_mode").uv_layers.at(0).uv.size(), 24U);
   EXPECT_EQ(mesh("second_layer").uv_layers.at(1).name, "Lightmap");
