@@ -167,23 +167,10 @@ def lights():
         link(bpy.data.objects.new(kind.lower(), light)).location = (0, 0, 20)
 
 
-def cloud():
-    """An object that is a volume alone."""
-    material = bpy.data.materials.new("smoke")
-    material.use_nodes = True
-    nodes = material.node_tree.nodes
-    nodes.clear()
-    output, smoke = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeVolumePrincipled")
-    material.node_tree.links.new(smoke.outputs[0], output.inputs["Volume"])
-    volume = bpy.data.volumes.new("cloud")
-    volume.materials.append(material)
-    link(bpy.data.objects.new("cloud", volume))
-
-
 def main(path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     for build in (text_metaballs_surface, modifiers, visibility, instances, geometry_nodes, transforms, materials,
-                  names_and_oddities, lights, cloud):
+                  names_and_oddities, lights):
         build()
     curve_object("tube", "CURVE", 0.1)
     curve_object("path_without_faces", "CURVE", 0)
