@@ -13,7 +13,8 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kLargestTile = 8;
 constexpr double kFewestTiles = 16;
-constexpr double kFewPaths = 4;  // that make up the noise of a mean: too few to tell it
+constexpr double kFewPaths = 4;       // that make up the noise of a mean: too few to tell it
+constexpr double kSmallMove = 0.003;  // of a mean: what a path that moves it by less does matters to nobody
 
 int tile_size(const FloatImage& image) {
   const auto size = static_cast<int>(std::sqrt(double(image.texels()) / kFewestTiles));
@@ -197,7 +198,8 @@ PictureMetrics PictureComparison::metrics() const {
   result.bias = with_rare_path(reach, down, up);
   result.relative_bias = with_rare_path(jackknife(sum, relative_bias), down * share, up * share);
   const double rare = std::max(down, up);
-  result.too_noisy = kFewPaths * rare * rare > reach.standard_error * reach.standard_error;
+  result.too_noisy = rare > kSmallMove * std::abs(result.reference_mean) &&
+                     kFewPaths * rare * rare > reach.standard_error * reach.standard_error;
   // A mean that a rare path may have moved so far is in the mean square, too.
   const double moved = least_square(with_rare_path(reach, 0, 0)) - least_square(result.bias);
   const double low = moved + rare_.squared / sum.values;

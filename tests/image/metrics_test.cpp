@@ -198,6 +198,15 @@ TEST(Metrics, SaysWhereTooFewPathsFoundTheLight) {
   EXPECT_EQ(count_rare_hits(32, {10000, 1}, 2, kSeeds).too_noisy, 0);
 }
 
+TEST(Metrics, AFewNoisyTexelsThatDoNotMoveTheMeanAreNotTooNoisy) {
+  FloatImage first = plain(16, 1, 1), second = first;
+  first.data()[7] = 1.2F;  // the mean by 0.0004
+  const FloatImage reference = plain(16, 1, 1);
+  EXPECT_FALSE(compare({&first, &second, nullptr}, {&reference}).too_noisy);
+  first.data()[7] = 11;  // by 0.02
+  EXPECT_TRUE(compare({&first, &second, nullptr}, {&reference}).too_noisy);
+}
+
 TEST(Metrics, WithoutNoiseEverythingIsExact) {
   FloatImage candidate = plain(16, 1.5F);
   const FloatImage reference = plain(16, 2);
