@@ -19,6 +19,7 @@ def open_scene(task):
     """Check the open scene, request["scene"]."""
     if not bpy.data.filepath:
         raise Refusal(f"{task.request['scene']}: Blender did not open it; is it damaged, or saved by a newer Blender?")
+    refuse_devices()
     refuse_missing_libraries()
     refuse_blocked_scripts(task)
     untrusted.refuse_stopped()
@@ -56,6 +57,13 @@ def leave_edit_mode():
             view_layer.objects.active = ob
             bpy.ops.object.mode_set(mode="OBJECT")
     view_layer.objects.active = active
+
+
+def refuse_devices():
+    """Reading a device or a pipe in a picture's place would never end."""
+    for path in bpy.utils.blend_paths(absolute=True, packed=False):
+        if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+            raise Refusal(f"{path}: the scene reads it, but it is no file; name one in Blender (File > External Data)")
 
 
 def refuse_missing_libraries():

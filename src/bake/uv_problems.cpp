@@ -1,5 +1,7 @@
 #include "bake/uv_problems.h"
 
+#include "base/text.h"
+
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
@@ -25,21 +27,21 @@ std::string spoken(const UvProblem& problem) {
   using Kind = UvProblem::Kind;
   switch (problem.kind) {
     case Kind::overlap:
-      return fmt::format("{} texels overlap", problem.count);
+      return counted(problem.count, "texel") + (problem.count == 1 ? " overlaps" : " overlap");
     case Kind::tiles:
-      return fmt::format("{} triangles in another UDIM tile", problem.count);
+      return counted(problem.count, "triangle") + " in another UDIM tile";
     case Kind::outside:
-      return fmt::format("{} texels outside [0,1]", problem.count);
+      return counted(problem.count, "texel") + " outside [0,1]";
     case Kind::no_uv_area:
-      return fmt::format("{} triangles without UV area", problem.count);
+      return counted(problem.count, "triangle") + " without UV area";
     case Kind::no_area:
-      return fmt::format("{} triangles without area", problem.count);
+      return counted(problem.count, "triangle") + " without area";
     case Kind::capped:
       return fmt::format("texels_per_unit wants {0} x {0}", problem.count);
     case Kind::mirrored:
       break;
   }
-  return fmt::format("{} mirrored charts", problem.count);
+  return counted(problem.count, "mirrored chart");
 }
 
 const char* remedy(UvProblem::Kind kind) {
@@ -47,12 +49,10 @@ const char* remedy(UvProblem::Kind kind) {
   switch (kind) {
     case Kind::overlap:
       return "several faces share texels and the last one wins: give each a place of its own, or pass "
-             "--unwrap "
-             "always";
+             "--unwrap always";
     case Kind::tiles:
       return "only the square [0,1] is baked, these faces get no light: move them into it, split the object, "
-             "or "
-             "pass --unwrap always";
+             "or pass --unwrap always";
     case Kind::outside:
       return "what lies outside is lost: scale the UVs into the square, or pass --unwrap always";
     case Kind::no_uv_area:

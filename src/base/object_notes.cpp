@@ -6,8 +6,6 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::size_t names_shown = 3;
-
 std::string line_of(const std::string& object, const std::string& said) {
   return object.empty() ? said : object + ": " + said;
 }
@@ -52,8 +50,8 @@ void warn_of_objects(const std::vector<std::string>& lines) {
   notes.write();
 }
 
-std::string first_names(const std::vector<std::string>& names) {
-  const std::size_t shown = std::min(names.size(), names_shown), more = names.size() - shown;
+std::string first_names(const std::vector<std::string>& names, std::size_t most) {
+  const std::size_t shown = std::min(names.size(), most), more = names.size() - shown;
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) {
     const bool last = i + 1 == shown && more == 0;

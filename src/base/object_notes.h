@@ -3,6 +3,7 @@
 
 #include "base/log.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,7 @@ class ObjectNotes {
 /// Lines that begin with their objects' names, as warnings.
 void warn_of_objects(const std::vector<std::string>& lines);
 
-/// "a", "a and b", "a, b and c", "a, b, c and 2 more".
-std::string first_names(const std::vector<std::string>& names);
+/// "a", "a and b", "a, b and c"; of more than `most`: "a, b, c and 2 more".
+std::string first_names(const std::vector<std::string>& names, std::size_t most = 3);
 
 }  // namespace rnmbake

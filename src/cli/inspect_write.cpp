@@ -1,8 +1,8 @@
 #include "cli/inspect_write.h"
 
+#include "base/object_notes.h"
 #include "base/text.h"
 #include "base/text_table.h"
-#include "pipeline/name_list.h"
 #include "scene/lighting.h"
 
 #include <map>
@@ -69,7 +69,7 @@ void write_not_selected(const std::vector<InspectedObject>& objects, std::ostrea
     if (object.not_baked == not_selected) keys.push_back(object.object->key);
   }
   if (!keys.empty())
-    out << '\n' << printable(fmt::format("not selected ({}): {}", keys.size(), name_list(keys, 8))) << '\n';
+    out << '\n' << printable(fmt::format("not selected ({}): {}", keys.size(), first_names(keys, 8))) << '\n';
 }
 
 void write_lights(const Survey& survey, std::ostream& out) {

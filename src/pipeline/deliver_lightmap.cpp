@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/text.h"
 #include "lightmap/layout.h"
-#include "pipeline/name_list.h"
 
 #include <algorithm>
 #include <utility>
@@ -80,7 +80,7 @@ void warn_of_black(const std::vector<Target>& targets, const std::vector<Deliver
   log::warn(
       "{}: {} of {} lightmaps are all black: are these objects buried, do their faces look away from the "
       "light, or is it too weak?",
-      name_list(names), names.size(), deliveries.size());
+      first_names(names), names.size(), deliveries.size());
 }
 
 void prepare_output(const OutputSettings& output) {

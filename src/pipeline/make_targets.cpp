@@ -3,8 +3,8 @@
 #include "bake/uv_problems.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/text.h"
-#include "pipeline/name_list.h"
 #include "pipeline/unwrap.h"
 #include "scene/lighting.h"
 
@@ -21,6 +21,7 @@ namespace {
 
 constexpr const char* unwrapped_layer = "Lightmap";
 constexpr const char* no_area = "no area";
+constexpr std::size_t most_uv_layers = 8;  // of a mesh, in every Blender (MAX_MTFACE)
 
 std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
   std::vector<std::uint32_t> triangles(mesh.triangles());
@@ -54,9 +55,9 @@ void warn_of_uv_problems(const std::vector<Target>& targets) {
   for (const auto& [kind, group] : groups) {
     const std::string what = spoken({kind, group.count});
     if (*remedy(kind) != 0)
-      log::warn("{}: {}; {}", name_list(group.names), what, remedy(kind));
+      log::warn("{}: {}; {}", first_names(group.names), what, remedy(kind));
     else
-      log::debug("{}: {}", name_list(group.names), what);
+      log::debug("{}: {}", first_names(group.names), what);
   }
 }
 
@@ -105,12 +106,27 @@ class TargetMaker {
       candidate.settings = config_.for_object(object.name, object.key);
       candidate.lightmap = choose_lightmap_uv(mesh, candidate.settings, object.key).layer;
       candidate.tangent = choose_tangent_uv(mesh, candidate.settings, object.key);
-      if (candidate.lightmap) candidate.uv = layer_uvs(object.mesh, *candidate.lightmap);
+      if (candidate.lightmap)
+        candidate.uv = layer_uvs(object.mesh, *candidate.lightmap);
+      else
+        check_room_for_layer(mesh, object.key);
       candidates_.push_back(std::move(candidate));
     } catch (const Error& error) {
       if (last_error_) log::error("{}", last_error_->what());
       last_error_ = error;
     }
+  }
+
+  /// The saved scene holds what is unwrapped in a layer of its own.
+  void check_room_for_layer(const Mesh& mesh, const std::string& key) const {
+    if (config_.globals.output.save_scene == OutputSettings::SaveScene::never) return;
+    const bool is_there =
+        std::ranges::find(mesh.uv_layers, unwrapped_layer, &UvLayer::name) != mesh.uv_layers.end();
+    if (is_there || mesh.uv_layers.size() < most_uv_layers) return;
+    fail(ExitCode::invalid_input,
+         "object '{}': it has {} UV layers, the most that Blender holds, and none is left for its lightmap; "
+         "remove one, name one with --uv, or pass --save-scene never",
+         key, mesh.uv_layers.size());
   }
 
   void skip(const std::string& key, const char* reason) {
@@ -124,8 +140,8 @@ class TargetMaker {
       if (skipped.reason == no_area) names.push_back(skipped.key);
     }
     if (names.empty()) return;
-    log::warn("{}: {} of the objects have faces, but none with an area; they are left out", name_list(names),
-              names.size());
+    log::warn("{}: {} whose faces have no area; left out", first_names(names),
+              counted(names.size(), "object"));
   }
 
   void unwrap_those_without_uv() {

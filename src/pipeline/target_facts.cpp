@@ -3,9 +3,9 @@
 #include "base/bytes.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "pipeline/name_list.h"
 #include "scene/tangents.h"
 
 namespace rnmbake {
@@ -21,7 +21,7 @@ void LostDirections::warn() const {
   log::warn(
       "{}: {} without a tangent, since their UVs meet in a point or line; the basis is turned at will "
       "there: unwrap these faces, or name another layer with --tangent-uv",
-      name_list(names_), counted(corners_, "corner"));
+      first_names(names_), counted(corners_, "corner"));
 }
 
 Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost, const Vec3d& origin) {

@@ -1,9 +1,9 @@
 #include "pipeline/unwrap.h"
 
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "pipeline/name_list.h"
 #include "pipeline/workspace.h"
 #include "process/stop.h"
 #include "unwrap/unwrap_mesh.h"
@@ -70,7 +70,7 @@ struct Narrowed {
     log::warn(
         "{}: too many charts for the margin asked for, the texels in brackets are left and light may bleed "
         "across ({} objects, at least {:.1f} texels): raise the resolution, or lower --unwrap-margin",
-        name_list(names), names.size(), least);
+        first_names(names), names.size(), least);
   }
 };
 

@@ -69,6 +69,21 @@ TEST(MakeTargets, LeavesOutPartsWithoutArea) {
   EXPECT_EQ(list.skipped[0].key, "object0/part1");
 }
 
+TEST(MakeTargets, RefusesToUnwrapWhereNoLayerIsLeft) {
+  Mesh mesh = with_layer(square_with_line(), square_uv());
+  for (int i = 1; i < 8; ++i) mesh.uv_layers.push_back({std::to_string(i), mesh.uv_layers[0].uv});
+  ResolvedConfig config = resolve({}, {}, {});
+  config.globals.object.unwrap = ObjectSettings::Unwrap::always;
+  EXPECT_NO_THROW(make_targets(config, survey_of({mesh})));  // one is called Lightmap already
+  mesh.uv_layers[0].name = "0";
+  EXPECT_THROW(make_targets(config, survey_of({mesh})), Error);
+  config.globals.output.save_scene = OutputSettings::SaveScene::never;
+  EXPECT_NO_THROW(make_targets(config, survey_of({mesh})));
+  config.globals.output.save_scene = OutputSettings::SaveScene::when_unwrapped;
+  mesh.uv_layers.pop_back();
+  EXPECT_NO_THROW(make_targets(config, survey_of({mesh})));
+}
+
 TEST(MakeTargets, CountsWhatTheLightmapCannotShow) {
   std::vector<Vec2> doubled = square_uv();  // the second triangle on top of the first
   std::copy(doubled.begin(), doubled.begin() + 3, doubled.begin() + 3);

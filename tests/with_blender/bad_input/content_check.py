@@ -35,7 +35,7 @@ class Content(BadInput):
         self.assertEqual(ended.code, OK, ended.err)
         manifest = self.manifest()
         self.assertEqual(manifest["skipped"], [{"key": "lines", "reason": "no area"}])
-        self.assertIn("lines: 1 of the objects have faces, but none with an area", ended.err)
+        self.assertIn("lines: 1 object whose faces have no area", ended.err)
         entry, = manifest["objects"]
         self.assertEqual((entry["object"], entry["unwrapped"]), ("partly", True))
         self.assertEqual(entry["uv"]["degenerate_triangles"], 1)
@@ -47,6 +47,9 @@ class Content(BadInput):
         self.assertEqual(ended.code, OK, ended.err)
         texels = self.manifest()["objects"][0]["texels"]
         self.assertEqual(texels["black"], texels["covered"])
+
+    def test_picture_that_is_a_device(self):
+        self.assert_refused(self.bake("device.blend"), INVALID_INPUT, "/dev/zero")
 
     def test_nan_vertex(self):
         self.assert_refused(self.bake("nan_vertex.blend"), INVALID_INPUT, "'broken'", "vertex 3")

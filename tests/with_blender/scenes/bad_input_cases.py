@@ -105,6 +105,16 @@ def driver(_folder):
     driven.type, driven.expression = "SCRIPTED", "__import__('os').getpid() * 0 + 1"
 
 
+def device(_folder):
+    """A material that reads a picture without end."""
+    material = bpy.data.materials.new("endless")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.new("zeros", 1, 1)
+    node.image.source, node.image.filepath = "FILE", "/dev/zero"
+    card("floor").data.materials.append(material)
+
+
 def simulations(folder):
     """Written when the file is opened: the fluid's cache, where it says; in later frames the cloth's, beside it."""
     card("floor")
@@ -123,7 +133,7 @@ def simulations(folder):
 
 def main(folder):
     for build in (good, no_meshes, no_faces, some_faces, zero_uvs, no_area, dark, nan_vertex, names, autorun, driver,
-                  simulations):
+                  device, simulations):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         sun()
         build(folder)
