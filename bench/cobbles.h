@@ -1,7 +1,7 @@
 // bench/cobbles.h - a height map to measure on: cobbles under fractal noise, the same on every machine.
 #pragma once
 
-#include "ssbump/height_field.h"
+#include "ssbump/heights/height_field.h"
 
 namespace rnmbake {
 

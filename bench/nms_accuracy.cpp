@@ -4,11 +4,11 @@
 //   bench_nms --heightmaps ../shared/heightmaps
 #include "base/error.h"
 #include "image/layered_exr.h"
-#include "ssbump/height_shadows.h"
-#include "ssbump/normal_map.h"
-#include "ssbump/normal_shadows.h"
-#include "ssbump/normals.h"
-#include "ssbump/slope_curl.h"
+#include "ssbump/heights/height_shadows.h"
+#include "ssbump/map/normal_map.h"
+#include "ssbump/normal_shadows/normal_shadows.h"
+#include "ssbump/map/normals.h"
+#include "ssbump/map/slope_curl.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "rays/embree_scene.h"
-#include "ssbump/height_field.h"
-#include "ssbump/hemisphere_rays.h"
-#include "ssbump/weights.h"
+#include "ssbump/heights/height_field.h"
+#include "ssbump/generate/hemisphere_rays.h"
+#include "ssbump/map/weights.h"
 
 #include <array>
 #include <vector>

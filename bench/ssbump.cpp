@@ -6,9 +6,9 @@
 #include "cobbles.h"
 #include "ray_loop.h"
 #include "sampled_weights.h"
-#include "ssbump/bilateral.h"
-#include "ssbump/generate.h"
-#include "ssbump/horizon_sweep.h"
+#include "ssbump/heights/bilateral.h"
+#include "ssbump/generate/generate.h"
+#include "ssbump/horizon/horizon_sweep.h"
 
 #include <algorithm>
 #include <cstdint>

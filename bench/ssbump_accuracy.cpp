@@ -4,7 +4,7 @@
 // Prints one JSON object a line as soon as it is measured, and the same for people on the standard error.
 #include "base/error.h"
 #include "sampled_weights.h"
-#include "ssbump/generate.h"
+#include "ssbump/generate/generate.h"
 #include "ssbump_closed_forms.h"
 #include "ssbump_maps.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/math.h"
 #include "cobbles.h"
-#include "ssbump/read_heights.h"
+#include "ssbump/heights/read_heights.h"
 
 #include <algorithm>
 #include <cmath>

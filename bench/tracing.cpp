@@ -4,8 +4,8 @@
 // Prints one JSON object. `cost` is relative variance x processor seconds: what halves it halves the time to
 // any error.
 #include "base/clock.h"
-#include "basis/basis_set.h"
-#include "scene/exchange.h"
+#include "encoding/basis_set.h"
+#include "scene/diffuse_scene.h"
 #include "scene/surface.h"
 #include "scene/tangents.h"
 #include "trace/gather.h"

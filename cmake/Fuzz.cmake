@@ -25,7 +25,7 @@ function(rnm_fuzz_targets)
   endforeach()
   # What a launch leaves behind; one file of the pipeline room, the rest of which needs Embree.
   add_executable(launch_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/launch_fuzz.cpp
-                                              ${CMAKE_SOURCE_DIR}/src/pipeline/launch_answer.cpp)
+                                              ${CMAKE_SOURCE_DIR}/src/pipeline/scene/launch_answer.cpp)
   target_link_options(launch_fuzz PRIVATE -fsanitize=fuzzer)
   add_executable(launch_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/launch_seeds.cpp)
   foreach(TARGET launch_fuzz launch_seeds)

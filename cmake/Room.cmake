@@ -10,7 +10,7 @@ endif()
 
 function(rnm_room NAME)
   cmake_parse_arguments(ROOM "" "" "LINK;PRIVATE" ${ARGN})
-  file(GLOB ROOM_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${NAME}/*.cpp)
+  file(GLOB_RECURSE ROOM_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${NAME}/*.cpp)
   if(EXISTS ${CMAKE_SOURCE_DIR}/src/${NAME}/room.cmake)
     include(${CMAKE_SOURCE_DIR}/src/${NAME}/room.cmake)
   endif()

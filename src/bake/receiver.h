@@ -11,7 +11,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "config/bake_settings.h"
 #include "scene/surface.h"
 

@@ -10,7 +10,7 @@ namespace rnmbake {
 [[nodiscard]] bool is_blend(const std::filesystem::path& file);
 
 /// Absolute path of a .blend. Launches take this in place of a path, so that none is handed the user's .glb:
-/// import_scene() in pipeline/scene_survey.h turns that into a .blend once for all of them.
+/// import_scene() in pipeline/scene/scene_survey.h turns that into a .blend once for all of them.
 class BlendPath {
  public:
   /// Throws std::invalid_argument unless is_blend(): a defect of the caller.

@@ -11,13 +11,13 @@
 #include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
-#include "cli/nms.h"
+#include "cli/ssbump/nms.h"
 #include "cli/reference.h"
 #include "cli/render.h"
-#include "cli/ssbump.h"
+#include "cli/ssbump/ssbump.h"
 #include "cli/validate.h"
 #include "config/variables.h"
-#include "pipeline/workspace.h"
+#include "blender/blender_session.h"
 
 #include <algorithm>
 #include <array>

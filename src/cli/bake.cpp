@@ -5,9 +5,9 @@
 #include "base/text.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
-#include "pipeline/bake_run.h"
-#include "pipeline/late_blender.h"
-#include "pipeline/scene_survey.h"
+#include "pipeline/bake/bake_run.h"
+#include "blender/late_blender.h"
+#include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // cli/basis_file.h - the directions to bake for, out of RNM's or of a list in TOML.
 #pragma once
 
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "config/bake_settings.h"
 
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "pipeline/compare.h"
+#include "pipeline/compare/compare.h"
 #include "report/thresholds.h"
 #include "report/write.h"
 

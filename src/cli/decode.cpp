@@ -2,11 +2,11 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "image/display_png.h"
 #include "image/layered_exr.h"
 #include "lightmap/decode.h"
-#include "pipeline/decode_ssbump.h"
+#include "pipeline/ssbump/decode_ssbump.h"
 
 #include <algorithm>
 #include <cctype>

@@ -5,8 +5,8 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/settings_flags.h"
-#include "pipeline/export_scene.h"
-#include "pipeline/late_blender.h"
+#include "pipeline/scene/export_scene.h"
+#include "blender/late_blender.h"
 #include "process/stop.h"
 
 #include <algorithm>

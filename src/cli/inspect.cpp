@@ -4,8 +4,8 @@
 #include "cli/inspect_scene.h"
 #include "cli/inspect_write.h"
 #include "cli/settings_flags.h"
-#include "pipeline/late_blender.h"
-#include "pipeline/scene_survey.h"
+#include "blender/late_blender.h"
+#include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
 #include <iostream>

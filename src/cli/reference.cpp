@@ -5,10 +5,10 @@
 #include "base/text.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
-#include "pipeline/export_scene.h"
-#include "pipeline/late_blender.h"
-#include "pipeline/reference_run.h"
-#include "pipeline/save_scene.h"
+#include "pipeline/scene/export_scene.h"
+#include "blender/late_blender.h"
+#include "pipeline/reference/reference_run.h"
+#include "pipeline/scene/save_scene.h"
 #include "process/stop.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // lightmap/metadata.h - what a lightmap file says about itself, to and from header attributes.
 #pragma once
 
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "image/layered_exr.h"
 #include "lightmap/merge.h"
 

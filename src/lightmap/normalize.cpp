@@ -1,6 +1,6 @@
 #include "lightmap/normalize.h"
 
-#include "basis/rnm.h"
+#include "encoding/rnm.h"
 
 #include <cmath>
 

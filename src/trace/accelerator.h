@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rays/embree_scene.h"
-#include "trace/looks.h"
+#include "trace/surface_materials.h"
 #include "trace/triangles.h"
 
 #include <atomic>

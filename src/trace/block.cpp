@@ -1,8 +1,8 @@
 #include "trace/block.h"
 
-#include "basis/rnm.h"
-#include "basis/sh.h"
-#include "trace/passage.h"
+#include "encoding/rnm.h"
+#include "encoding/sh.h"
+#include "trace/transparency.h"
 
 #include <algorithm>
 #include <array>

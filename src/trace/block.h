@@ -12,10 +12,10 @@
 #pragma once
 
 #include "trace/gather.h"
-#include "trace/lobes.h"
+#include "sampling/cosine_lobes.h"
 #include "trace/path.h"
-#include "trace/sites.h"
-#include "trace/tally.h"
+#include "trace/texel_samples.h"
+#include "sampling/batch_statistics.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 // trace/gather.h - the reference: unbiased E/pi of every texel of a target, for all directions in one pass.
 #pragma once
 
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "image/float_image.h"
 #include "scene/surface.h"
 #include "trace/scene.h"

@@ -1,7 +1,7 @@
 #include "trace/path.h"
 
-#include "trace/lobes.h"
-#include "trace/passage.h"
+#include "sampling/cosine_lobes.h"
+#include "trace/transparency.h"
 
 #include <algorithm>
 

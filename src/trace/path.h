@@ -3,7 +3,7 @@
 
 #include "base/math.h"
 #include "trace/recipe.h"
-#include "trace/sampler.h"
+#include "sampling/sampler.h"
 #include "trace/scene.h"
 
 #include <algorithm>

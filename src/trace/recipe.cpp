@@ -1,7 +1,7 @@
 #include "trace/recipe.h"
 
 #include "base/error.h"
-#include "trace/bulge.h"
+#include "trace/shadow_terminator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/math.h"
-#include "scene/exchange.h"
-#include "trace/lights.h"
-#include "trace/looks.h"
+#include "scene/diffuse_scene.h"
+#include "trace/lights/lights.h"
+#include "trace/surface_materials.h"
 #include "trace/ray_log.h"
 #include "trace/triangles.h"
 
@@ -51,14 +51,14 @@ class Accelerator;
 /// made.
 class TraceScene {
  public:
-  /// `blender_version`: whose light units hold (trace/lights.h). Throws Error(environment) where Embree
+  /// `blender_version`: whose light units hold (trace/lights/lights.h). Throws Error(environment) where Embree
   /// fails.
   TraceScene(const Exchange& scene, const std::string& blender_version);
   ~TraceScene();
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;
 
-  /// The nearest opaque place, and all see-through ones before it, from near to far. trace/passage.h follows
+  /// The nearest opaque place, and all see-through ones before it, from near to far. trace/transparency.h follows
   /// them.
   [[nodiscard]] bool intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const;
   [[nodiscard]] Visibility visibility(const Ray& ray) const;

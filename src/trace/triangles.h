@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "scene/exchange.h"
+#include "scene/diffuse_scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "trace/view.h"
 
-#include "trace/directions.h"
-#include "trace/passage.h"
+#include "sampling/warps.h"
+#include "trace/transparency.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The command as a user calls it: exit codes, messages and files.
 #include "base/files.h"
-#include "basis/rnm.h"
+#include "encoding/rnm.h"
 #include "cli/command_test.h"
 #include "image/layered_exr.h"
 #include "lightmap/layout.h"

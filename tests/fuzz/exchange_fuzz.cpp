@@ -2,7 +2,7 @@
 // can be placed in the world, written, and read again. Run by ./dev fuzz.
 #include "base/error.h"
 #include "fuzz/parts.h"
-#include "scene/exchange.h"
+#include "scene/diffuse_scene.h"
 #include "trace/triangles.h"
 
 #include <algorithm>

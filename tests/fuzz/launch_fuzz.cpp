@@ -9,8 +9,8 @@
 #include "blender/launch_watch.h"
 #include "blender/outcome.h"
 #include "blender/progress_tail.h"
-#include "pipeline/launch_answer.h"
-#include "scene/exchange.h"
+#include "pipeline/scene/launch_answer.h"
+#include "scene/diffuse_scene.h"
 #include "scene/survey.h"
 
 #include <algorithm>

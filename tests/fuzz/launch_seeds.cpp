@@ -1,6 +1,6 @@
 // launch_seeds FOLDER: results, progress and surveys of launches from which fuzzing starts.
 #include "base/files.h"
-#include "scene/exchange_parts.h"
+#include "scene/diffuse_scene_parts.h"
 #include "scene/test_exchange.h"
 
 #include <cstdio>

@@ -5,10 +5,10 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
-#include "cli/ssbump_flags.h"
+#include "cli/ssbump/ssbump_flags.h"
 #include "image/picture_rows.h"
-#include "pipeline/ssbump_picture.h"
-#include "pipeline/ssbump_run.h"
+#include "ssbump/map/picture.h"
+#include "pipeline/ssbump/ssbump_run.h"
 
 #include <algorithm>
 #include <cstdlib>

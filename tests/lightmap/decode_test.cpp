@@ -1,7 +1,7 @@
 #include "lightmap/decode.h"
 
 #include "base/error.h"
-#include "basis/rnm.h"
+#include "encoding/rnm.h"
 
 #include <algorithm>
 #include <cmath>

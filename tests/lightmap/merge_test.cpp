@@ -1,7 +1,7 @@
 #include "lightmap/merge.h"
 
 #include "base/error.h"
-#include "basis/rnm.h"
+#include "encoding/rnm.h"
 #include "lightmap/half_range.h"
 #include "lightmap/layout.h"
 

@@ -4,9 +4,9 @@
 #include "base/files.h"
 #include "blender/launch.h"
 #include "config/resolve.h"
-#include "pipeline/delivery.h"
-#include "pipeline/dispatcher.h"
-#include "pipeline/workspace.h"
+#include "pipeline/lightmaps/bake_collector.h"
+#include "pipeline/bake/dispatcher.h"
+#include "blender/blender_session.h"
 
 #include <algorithm>
 #include <filesystem>

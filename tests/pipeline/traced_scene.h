@@ -1,7 +1,7 @@
 // tests/pipeline/traced_scene.h - a scene of a few quads as an export would give it, with its targets.
 #pragma once
 
-#include "pipeline/export_scene.h"
+#include "pipeline/scene/export_scene.h"
 #include "trace/trace_scenes.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // tests/scene/test_exchange.h - a small scene with something of everything that a .rnmscene file holds.
 #pragma once
 
-#include "scene/exchange.h"
+#include "scene/diffuse_scene.h"
 #include "scene/test_meshes.h"
 
 namespace rnmbake {

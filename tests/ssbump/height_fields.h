@@ -1,9 +1,9 @@
 // ssbump/height_fields.h - height fields for tests, and their exact weights.
 #pragma once
 
-#include "ssbump/height_field.h"
-#include "ssbump/height_shadows.h"
-#include "ssbump/lobes.h"
+#include "ssbump/heights/height_field.h"
+#include "ssbump/heights/height_shadows.h"
+#include "ssbump/generate/lobes.h"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/tangents.h"
-#include "ssbump/mesh_occlusion.h"
+#include "ssbump/mesh/mesh_occlusion.h"
 
 #include <array>
 #include <string>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/math.h"
-#include "ssbump/height_field.h"
-#include "ssbump/normals.h"
+#include "ssbump/heights/height_field.h"
+#include "ssbump/map/normals.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // tests/support/bases.h - the directions that a plain bake asks for.
 #pragma once
 
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // tests/trace/light_support.h - small lit scenes, and irradiance by Monte Carlo and by other means.
 #pragma once
 
-#include "scene/exchange.h"
-#include "trace/lights.h"
+#include "scene/diffuse_scene.h"
+#include "trace/lights/lights.h"
 #include "trace/triangles.h"
 
 #include <cmath>

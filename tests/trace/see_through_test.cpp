@@ -1,7 +1,7 @@
 // Surfaces that let light through: closed forms, and estimators that must agree.
 #include "trace/gather.h"
 #include "trace/moments.h"
-#include "trace/passage.h"
+#include "trace/transparency.h"
 #include "trace/trace_scenes.h"
 #include "trace/view.h"
 

@@ -1,7 +1,7 @@
 // tests/trace/trace_scenes.h - scenes of a few quads, built in memory, and their gathering.
 #pragma once
 
-#include "scene/exchange.h"
+#include "scene/diffuse_scene.h"
 #include "scene/surface.h"
 #include "support/bases.h"
 #include "trace/gather.h"

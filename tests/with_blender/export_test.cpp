@@ -1,5 +1,5 @@
 // rnmbake export: what of a scene reaches the tracer. Scenes: scenes/export_cases.py and the built ones.
-#include "scene/exchange.h"
+#include "scene/diffuse_scene.h"
 #include "with_blender/survey_session.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Every kind of lamp: what the Blender at hand bakes on tiny quads against what Lights gives there.
 #include "survey_session.h"
-#include "trace/lights.h"
+#include "trace/lights/lights.h"
 
 #include <cmath>
 #include <cstdio>

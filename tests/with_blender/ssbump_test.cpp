@@ -1,13 +1,13 @@
 // rnmbake ssbump with Blender: meshes read from files, and height maps baked by Cycles. Scenes:
 // scenes/ssbump_cases.py.
 #include "base/error.h"
-#include "basis/rnm.h"
+#include "encoding/rnm.h"
 #include "config/resolve.h"
-#include "pipeline/late_blender.h"
-#include "pipeline/ssbump_blender.h"
-#include "pipeline/ssbump_mesh.h"
-#include "pipeline/workspace.h"
-#include "ssbump/generate.h"
+#include "blender/late_blender.h"
+#include "pipeline/ssbump/ssbump_blender.h"
+#include "pipeline/ssbump/ssbump_mesh.h"
+#include "blender/blender_session.h"
+#include "ssbump/generate/generate.h"
 #include "with_blender/survey_session.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // them. Values are E/pi.
 #pragma once
 
-#include "basis/basis_set.h"
+#include "encoding/basis_set.h"
 #include "closed_forms/workbench.h"
 
 #include <cstddef>

@@ -1,0 +1,54 @@
+// blender/blender_session.h - what every step of a bake shares: settings, a Blender, a private folder.
+#pragma once
+
+#include "base/files.h"
+#include "blender/launch.h"
+#include "config/resolve.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+class Workspace {
+ public:
+  Workspace(const ResolvedConfig& config, Blender& blender);
+
+  [[nodiscard]] const ResolvedConfig& config() const { return config_; }
+  [[nodiscard]] const BakeSettings& settings() const { return config_.globals; }
+  [[nodiscard]] Blender& blender() const { return blender_; }
+
+  /// A new folder for one launch, named after what it does.
+  [[nodiscard]] std::filesystem::path new_folder(const std::string& purpose);
+
+  [[nodiscard]] LaunchLimits limits() const;
+  /// Threads for one of `jobs` Blenders at a time.
+  [[nodiscard]] int threads(int jobs) const;
+
+  /// Launches that must succeed for the bake to go on. Throws the Error that the failure stands for.
+  [[nodiscard]] nlohmann::json run(Launch launch);
+
+ private:
+  const ResolvedConfig& config_;
+  Blender& blender_;
+  TempFolder folder_;
+  std::atomic<int> launches_ = 0;
+};
+
+/// One line: who failed, how, and what to try.
+[[nodiscard]] std::string describe(const LaunchFailure& failure);
+
+/// Throws what the failure stands for: the script's own refusal, or tasks_failed. An interruption is
+/// thrown as Interrupted.
+[[noreturn]] void throw_failure(const LaunchFailure& failure);
+
+/// The user stopped the program; not an Error, since nothing is wrong.
+struct Interrupted {
+  int signal = 0;
+};
+
+}  // namespace rnmbake

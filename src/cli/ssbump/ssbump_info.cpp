@@ -1,0 +1,132 @@
+#include "base/error.h"
+#include "base/math.h"
+#include "base/text.h"
+#include "cli/ssbump/ssbump_tool_flags.h"
+#include "cli/ssbump/ssbump_tools.h"
+#include "ssbump/map/normals.h"
+#include "ssbump/map/weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+namespace rnmbake {
+namespace {
+
+struct Options {
+  SsbumpInputFlags input;
+  bool json = false;
+};
+
+struct ChannelStats {
+  const char* name;
+  double least, mean, greatest;
+};
+
+std::vector<ChannelStats> stats_of(const SsbumpPicture& picture) {
+  constexpr std::array names{"right", "upper left", "lower left", "up", "ambient"};
+  std::vector<ChannelStats> all;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (c == SsbumpWeights::up && picture.metadata.alpha != SsbumpAlpha::up) continue;
+    if (c == SsbumpWeights::ambient && picture.metadata.alpha != SsbumpAlpha::ao) continue;
+    ChannelStats stats{names[c], INFINITY, 0, -INFINITY};
+    const auto& data = picture.weights.data();
+    for (std::size_t at = c; at < data.size(); at += names.size()) {
+      stats.least = std::min<double>(stats.least, data[at]);
+      stats.greatest = std::max<double>(stats.greatest, data[at]);
+      stats.mean += data[at];
+    }
+    stats.mean /= static_cast<double>(picture.weights.texels());
+    all.push_back(stats);
+  }
+  return all;
+}
+
+/// How far bent normals lean from the surface, mean and most, in degrees.
+std::pair<double, double> tilt_of(const FloatImage& weights) {
+  const FloatImage normals = bent_normals(weights);
+  double sum = 0, most = 0;
+  for (std::size_t at = 2; at < normals.data().size(); at += 3) {
+    const double tilt = std::acos(std::clamp<double>(normals.data()[at], -1, 1)) * 180 / pi;
+    sum += tilt;
+    most = std::max(most, tilt);
+  }
+  return {sum / static_cast<double>(normals.texels()), most};
+}
+
+void print_json(const Options& options, const SsbumpPicture& picture) {
+  nlohmann::ordered_json json;
+  const SsbumpMetadata& metadata = picture.metadata;
+  json["file"] = options.input.file.string();
+  json["width"] = picture.weights.width();
+  json["height"] = picture.weights.height();
+  json["storage"] = picture.storage;
+  json["metadata"] = picture.knows_itself;
+  json["scale"] = name_of(metadata.scale);
+  json["flat"] = flat_value(metadata.scale);
+  json["handedness"] = name_of(metadata.handed);
+  json["alpha"] = name_of(metadata.alpha);
+  if (picture.knows_itself) json["power"] = metadata.power;
+  if (picture.knows_itself) json["method"] = metadata.method;
+  if (picture.knows_itself) json["settings"] = metadata.settings;
+  for (const ChannelStats& stats : stats_of(picture))
+    json["weights"][stats.name] = {
+        {"least", stats.least}, {"mean", stats.mean}, {"greatest", stats.greatest}};
+  const auto [mean, most] = tilt_of(picture.weights);
+  json["bent_normal_tilt"] = {{"mean", mean}, {"greatest", most}};
+  std::cout << json.dump(2) << '\n';
+}
+
+void print(const Options& options, const SsbumpPicture& picture) {
+  const SsbumpMetadata& metadata = picture.metadata;
+  const auto row = [](const char* name, const std::string& value) {
+    if (!value.empty()) std::cout << printable(fmt::format("{:<12} {}", name, value)) << '\n';
+  };
+  row("file", fmt::format("{}, {} x {}, {}", options.input.file.string(), picture.weights.width(),
+                          picture.weights.height(), picture.storage));
+  row("scale",
+      fmt::format("{}: the open surface stores {:.4f}", name_of(metadata.scale), flat_value(metadata.scale)));
+  row("handedness",
+      fmt::format("{}: channels are right, {}", name_of(metadata.handed),
+                  metadata.handed == Handed::right ? "upper left, lower left" : "lower left, upper left"));
+  row("alpha", name_of(metadata.alpha));
+  if (picture.knows_itself) row("power", fmt::format("{:g}", metadata.power));
+  row("method", metadata.method);
+  row("settings", metadata.settings);
+  std::cout << fmt::format("\n{:<12} {:>8} {:>8} {:>8}   (1 is open)\n", "weight", "least", "mean",
+                           "greatest");
+  for (const ChannelStats& stats : stats_of(picture))
+    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}\n", stats.name, stats.least, stats.mean,
+                             stats.greatest);
+  const auto [mean, most] = tilt_of(picture.weights);
+  std::cout << fmt::format("\nBent normals lean {:.1f} degrees on average, {:.1f} at most.\n", mean, most);
+}
+
+int run(const Options& options) {
+  const SsbumpPicture picture = options.input.read();
+  if (options.json) {
+    print_json(options, picture);
+  } else {
+    print(options, picture);
+  }
+  return static_cast<int>(ExitCode::ok);
+}
+
+}  // namespace
+
+std::function<int()> add_ssbump_info(CLI::App& ssbump) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = ssbump.add_subcommand("info", "What a map holds: conventions, weights, bent normals");
+  options->input.add_to(*command);
+  command->add_flag("--json", options->json, "one JSON object instead of the table");
+  return [options] { return run(*options); };
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,37 @@
+// pipeline/bake/bake_run.h - one bake by Blender: from targets to lightmaps and manifest.
+#pragma once
+
+#include "encoding/basis_set.h"
+#include "pipeline/lightmaps/deliver_lightmap.h"
+#include "pipeline/bake/dispatcher.h"
+#include "pipeline/lightmaps/earlier_lightmaps.h"
+#include "pipeline/scene/make_targets.h"
+#include "pipeline/scene/scene_survey.h"
+#include "blender/blender_session.h"
+#include "scene/survey.h"
+
+#include <vector>
+
+namespace rnmbake {
+
+/// What a bake came to.
+struct BakeOutcome {
+  std::vector<Delivery> deliveries;  // [targets]
+  BakeTimings timings;
+};
+
+/// What is baked, in which file. Several bakes of one scene share it.
+struct BakeSubject {
+  const Survey& survey;
+  const TargetList& list;
+  const std::vector<BasisDirection>& bases;
+  SceneBlends blends;             // `shown` is baked, `own` saved with new UVs
+  EarlierLightmaps earlier = {};  // stays in the manifest
+};
+
+/// Bakes all targets for all bases as the workspace's settings say, into their output folder, and writes the
+/// scene with its UVs and the manifest. What fails is logged and in the manifest. Samples, seed and the like
+/// come from the list's own settings. Throws Interrupted, and Error where going on makes no sense.
+[[nodiscard]] BakeOutcome run_bake(Workspace& workspace, const BakeSubject& subject);
+
+}  // namespace rnmbake

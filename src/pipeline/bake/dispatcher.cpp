@@ -1,0 +1,280 @@
+#include "pipeline/bake/dispatcher.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "blender/launch_watch.h"
+#include "pipeline/bake/memory.h"
+#include "pipeline/scene/scene_survey.h"
+#include "base/work_progress.h"
+#include "process/stop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Task {
+  Dispatch dispatch;
+  int retries_left = 0;
+};
+
+/// Launches that hung, none having succeeded: then it is the scene, and looking for an object is in vain. Two
+/// offenders, one in each half, come as far as four.
+constexpr int hangs_of_a_scene = 5;
+
+/// Every launch opens the scene alike, whatever it was to bake.
+bool is_before_baking(const LaunchFailure& failure) {
+  return failure.kind == LaunchFailure::Kind::hung && (failure.phase.empty() || failure.phase == "load");
+}
+
+/// Texels x samples: what the time of a bake is proportional to.
+double work_of(const Dispatch& dispatch, const Plan& plan) {
+  double work = 0;
+  for (const std::size_t unit : dispatch.units) {
+    for (const std::size_t tile : plan.units[unit].tiles) {
+      const TileSize size = plan.tiles[tile].size;
+      work += double(size.width) * size.height * plan.units[unit].cycles.samples;
+    }
+  }
+  return work;
+}
+
+double total_work(const Plan& plan) {
+  double work = 0;
+  for (const Dispatch& dispatch : plan.dispatches) work += work_of(dispatch, plan);
+  return work;
+}
+
+class Dispatcher {
+ public:
+  Dispatcher(Workspace& workspace, const BakeContext& context, BlendPath blend, DeliveryDesk& desk)
+      : workspace_(workspace),
+        context_(context),
+        blend_(std::move(blend)),
+        desk_(desk),
+        jobs_(choose_jobs(workspace.settings(), context.plan.dispatches.size())),
+        progress_(total_work(context.plan)) {
+    for (const Dispatch& dispatch : context.plan.dispatches) {
+      queue_.push_back({dispatch, workspace.settings().run.retries});
+    }
+  }
+
+  BakeTimings run() {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::thread> workers;
+    workers.reserve(static_cast<std::size_t>(jobs_));
+    for (int job = 0; job < jobs_; ++job) workers.emplace_back([this] { work(); });
+    watch();
+    for (std::thread& worker : workers) worker.join();
+    if (error_) std::rethrow_exception(error_);
+    timings_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return timings_;
+  }
+
+ private:
+  /// Shows signs of life until nothing runs or waits any more.
+  void watch() {
+    std::unique_lock lock(mutex_);
+    while (running_ > 0 || (!queue_.empty() && !error_)) {
+      changed_.wait_for(lock, std::chrono::milliseconds(250));
+      progress_.tick();
+    }
+  }
+
+  void work() {
+    while (auto task = next()) {
+      try {
+        run_task(*task);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!error_) error_ = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      --running_;
+      changed_.notify_all();
+    }
+  }
+
+  std::optional<Task> next() {
+    std::unique_lock lock(mutex_);
+    // A running task may still split, so an empty queue alone is not the end.
+    changed_.wait(lock, [this] { return error_ || !queue_.empty() || running_ == 0; });
+    if (error_ || queue_.empty()) return std::nullopt;
+    Task task = std::move(queue_.front());
+    queue_.pop_front();
+    ++running_;
+    return task;
+  }
+
+  void run_task(Task task) {
+    drop_settled(task.dispatch);
+    if (task.dispatch.units.empty() || given_up(task.dispatch)) return;
+    Launch launch;
+    launch.entry = "bake_entry.py";
+    launch.scene = blend_;
+    launch.folder = workspace_.new_folder("bake");
+    launch.threads = workspace_.threads(jobs_);
+    BakeRequest request = make_request(task.dispatch, launch.folder);
+    launch.request = std::move(request.json);
+    launch.request.update(scene_request(workspace_, blend_.path()));
+    const LaunchOutcome outcome = workspace_.blender().run(
+        launch, workspace_.limits(), [&](const ProgressEvent& event) { show(task.dispatch, event); });
+    if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
+      recover(std::move(task), *failure);
+    } else if (auto tiles = tiles_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&tiles)) {
+      recover(std::move(task), *lost);
+    } else {
+      desk_.take(task.dispatch, request.layout, std::get<0>(std::move(tiles)));
+      count(task.dispatch, std::get<Finished>(outcome));
+    }
+    if (!workspace_.settings().output.keep_temporary) fs::remove_all(launch.folder);
+  }
+
+  /// A launch whose pictures are missing or short failed, whatever it said; a smaller one may do.
+  std::variant<std::vector<FloatImage>, LaunchFailure> tiles_of(const DispatchLayout& layout,
+                                                                const fs::path& folder) const {
+    try {
+      return read_tiles(layout, context_.plan, folder);
+    } catch (const Error& error) {
+      LaunchFailure failure;
+      failure.message = error.what();
+      return failure;
+    }
+  }
+
+  BakeRequest make_request(const Dispatch& dispatch, const fs::path& folder) const {
+    const BakeSettings& settings = workspace_.settings();
+    if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map) {
+      return object_request(context_, dispatch, settings.bake.correct_bump, folder);
+    }
+    return receiver_request(context_, dispatch, atlas_pixels_for(settings, context_, dispatch, jobs_),
+                            folder);
+  }
+
+  /// A target that was given up takes its other units with it.
+  void drop_settled(Dispatch& dispatch) const {
+    std::erase_if(dispatch.units,
+                  [&](std::size_t unit) { return desk_.is_settled(context_.plan.units[unit].target); });
+  }
+
+  void recover(Task task, const LaunchFailure& failure) {
+    progress_.finish(task.dispatch.units.front(), 0);
+    if (is_hopeless(failure)) throw_failure(failure);
+    if (!failure.details.empty()) log::debug("{}", failure.details);
+    note_failure(failure);
+    if (given_up(task.dispatch)) return;
+    if (task.dispatch.units.size() > 1 && !is_before_baking(failure)) return divide(task, failure);
+    const Unit& unit = context_.plan.units[task.dispatch.units.front()];
+    const bool may_differ =
+        failure.kind != LaunchFailure::Kind::refused && failure.kind != LaunchFailure::Kind::outlasted;
+    if (may_differ && task.retries_left > 0) {
+      log::warn("{} ({}): {}; trying again", context_.targets[unit.target].key, unit.name, describe(failure));
+      enqueue({std::move(task.dispatch), task.retries_left - 1});
+      return;
+    }
+    give_up(task.dispatch, fmt::format("basis {}: {}", unit.name, describe(failure)));
+  }
+
+  /// What every other launch would meet, too.
+  static bool is_hopeless(const LaunchFailure& failure) {
+    return failure.kind == LaunchFailure::Kind::stopped ||
+           (failure.kind == LaunchFailure::Kind::refused &&
+            (failure.code == int(ExitCode::environment) || failure.code == int(ExitCode::io)));
+  }
+
+  void divide(const Task& task, const LaunchFailure& failure) {
+    log::warn("{}; splitting {} bakes to find the offender", describe(failure), task.dispatch.units.size());
+    for (Dispatch& half : split(task.dispatch, context_.plan)) enqueue({std::move(half), task.retries_left});
+  }
+
+  void note_failure(const LaunchFailure& failure) {
+    const std::lock_guard lock(mutex_);
+    ++timings_.launches;
+    ++timings_.failed_launches;
+    if (failure.kind != LaunchFailure::Kind::hung) return;
+    ++hangs_;
+    const bool none_succeeded = timings_.launches == timings_.failed_launches;
+    if (verdict_.empty() && hangs_ >= hangs_of_a_scene && none_succeeded)
+      verdict_ = fmt::format("{} launches hung, whatever they were to bake: {}", hangs_, describe(failure));
+  }
+
+  /// Where the verdict on the scene has been spoken.
+  bool given_up(const Dispatch& dispatch) {
+    std::unique_lock lock(mutex_);
+    if (verdict_.empty()) return false;
+    lock.unlock();  // it is never changed again
+    give_up(dispatch, verdict_);
+    return true;
+  }
+
+  void give_up(const Dispatch& dispatch, const std::string& reason) {
+    for (const std::size_t unit : dispatch.units) desk_.give_up(context_.plan.units[unit].target, reason);
+  }
+
+  /// Behind what waits already: a launch that succeeds tells more than one that fails again.
+  void enqueue(Task task) {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back(std::move(task));
+    changed_.notify_all();
+  }
+
+  void count(const Dispatch& dispatch, const Finished& finished) {
+    const std::lock_guard lock(mutex_);
+    ++timings_.launches;
+    timings_.launch_seconds += finished.wall_seconds;
+    timings_.peak_bytes = std::max(timings_.peak_bytes, finished.peak_bytes);
+    for (const auto& laps : finished.result) {
+      for (const auto& lap : laps) {
+        timings_.prepare_seconds += lap.value("prepare_seconds", 0.0);
+        timings_.bake_seconds += lap.value("bake_seconds", 0.0);
+        timings_.save_seconds += lap.value("save_seconds", 0.0);
+      }
+    }
+    progress_.finish(dispatch.units.front(), work_of(dispatch, context_.plan));
+  }
+
+  void show(const Dispatch& dispatch, const ProgressEvent& event) {
+    const double done = event.total > 0 ? work_of(dispatch, context_.plan) * event.done / event.total : 0;
+    progress_.advance(dispatch.units.front(), done, in_words(event));
+  }
+
+  Workspace& workspace_;
+  const BakeContext& context_;
+  BlendPath blend_;
+  DeliveryDesk& desk_;
+  int jobs_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Task> queue_;
+  int running_ = 0;
+  std::exception_ptr error_;
+  BakeTimings timings_;
+  int hangs_ = 0;
+  std::string verdict_;  // on the scene, where that is what hangs Blender
+  WorkProgress progress_;
+};
+
+}  // namespace
+
+int choose_jobs(const BakeSettings& settings, std::size_t dispatches) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int wanted = settings.run.jobs > 0 ? settings.run.jobs : cores;
+  return std::clamp(static_cast<int>(dispatches), 1, wanted);
+}
+
+BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context, const BlendPath& blend,
+                           DeliveryDesk& desk) {
+  return Dispatcher(workspace, context, blend, desk).run();
+}
+
+}  // namespace rnmbake

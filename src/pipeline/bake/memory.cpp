@@ -1,0 +1,53 @@
+#include "pipeline/bake/memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace rnmbake {
+namespace {
+
+/// Texels x samples of one bake call: minutes on two cores, which is what a crash costs. The same on every
+/// machine, so that pictures are.
+constexpr std::int64_t work_per_call = std::int64_t(1) << 27;
+
+std::int64_t available_memory() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string key, unit;
+  std::int64_t kibibytes = 0;
+  while (meminfo >> key >> kibibytes && std::getline(meminfo, unit)) {
+    if (key == "MemAvailable:") return kibibytes * 1024;
+  }
+  return std::int64_t(4) << 30;  // unknown: what a small machine has
+}
+
+std::int64_t scene_triangles(const Survey& survey) {
+  std::int64_t count = 0;
+  for (const Mesh& mesh : survey.meshes) count += static_cast<std::int64_t>(mesh.triangles());
+  return count;
+}
+
+}  // namespace
+
+std::int64_t memory_budget(const BakeSettings& settings) {
+  if (settings.bake.memory_limit > 0) return std::int64_t(settings.bake.memory_limit) << 20;
+  return available_memory() * 7 / 10;
+}
+
+std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
+                              const Dispatch& dispatch, int jobs) {
+  std::int64_t receiver_corners = 0;
+  for (const std::size_t unit : dispatch.units) {
+    for (const std::size_t tile : context.plan.units[unit].tiles) {
+      receiver_corners += static_cast<std::int64_t>(context.plan.tiles[tile].sheet.corners.size());
+    }
+  }
+  const std::int64_t samples = context.plan.units[dispatch.units.front()].cycles.samples;
+  const std::int64_t patience =
+      std::max<std::int64_t>(work_per_call / std::max<std::int64_t>(samples, 1), 1 << 18);
+  const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);
+  return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles(context.survey),
+                      receiver_corners / 3);
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,48 @@
+// pipeline/lightmaps/earlier_lightmaps.h - lightmaps that an earlier run left in the output folder, of objects that
+// this run leaves alone: they stay in the manifest, and their UVs in the saved scene.
+#pragma once
+
+#include "bake/targets.h"
+#include "encoding/basis_set.h"
+#include "pipeline/scene/save_scene.h"
+#include "blender/blender_session.h"
+#include "scene/survey.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+struct EarlierLightmap {
+  std::size_t object = 0;  // index into Survey::objects
+  nlohmann::json entry;    // of the manifest; "earlier" holds what was true of that whole run
+  Uvs uv;                  // what was unwrapped then; null: the object's own, or in no file
+};
+
+struct EarlierLightmaps {
+  std::vector<EarlierLightmap> kept;
+  std::string scene_with_uvs;  // name in the folder, "" if there is none
+
+  /// What its files are called before their endings.
+  [[nodiscard]] std::vector<std::string> stems() const;
+
+  /// `of_targets`, and what the saved scene has to hold besides.
+  [[nodiscard]] std::vector<SavedUvs> add_to(std::vector<SavedUvs> of_targets) const;
+};
+
+/// What this run is about to write, to tell what goes with it.
+struct RunKind {
+  std::string kind;  // bake, reference
+  const std::vector<BasisDirection>& bases;
+};
+
+/// Reads the output folder's manifest, and where something was unwrapped then the scene that was saved (one
+/// launch). Whatever no longer fits the scene is left out, with a warning. Throws Error(usage) where
+/// lightmaps of both runs cannot stand in one manifest: other bases, another scene.
+[[nodiscard]] EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run, const Survey& survey,
+                                            const std::vector<Target>& targets);
+
+}  // namespace rnmbake

@@ -1,0 +1,72 @@
+// pipeline/lightmaps/manifest.h - DIR/manifest.json: what was baked or traced, from what, how it went
+// (docs/manifest.md).
+#pragma once
+
+#include "bake/receiver.h"
+#include "pipeline/lightmaps/deliver_lightmap.h"
+#include "pipeline/bake/dispatcher.h"
+#include "pipeline/lightmaps/earlier_lightmaps.h"
+#include "pipeline/scene/make_targets.h"
+#include "scene/diffuse_scene.h"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+/// Raised when a reader of the old form would misunderstand the new one.
+inline constexpr int manifest_schema_version = 1;
+
+/// Throws Error(invalid_input) naming the file where it is no manifest, Error(unsupported) where it has
+/// another schema version.
+[[nodiscard]] nlohmann::json read_manifest(const std::filesystem::path& file);
+
+/// What only a bake has to say.
+struct BakeRecord {
+  const std::vector<HorizonCounts>& horizons;  // [targets]
+  const std::vector<double>& heights;          // [targets] of receivers over their faces, texels; 0: none
+  std::string dispatch;                        // basis, object, scene
+  BakeTimings timings;
+};
+
+/// What only a reference has to say.
+struct ReferenceRecord {
+  std::string model;                // true, flat-normal-map
+  std::vector<std::string> faults;  // of the latter
+  double error = 0;                 // asked for, a share; 0: none
+  struct Traced {
+    std::int64_t paths = 0, rays = 0;
+    double error = 0;  // RMS of the texels' standard errors over their mean, worst direction
+  };
+  std::vector<Traced> traced;                // [targets]
+  const std::vector<OutsideModel>& outside;  // what the tracer cannot do of the scene
+  double wall_seconds = 0;
+};
+
+struct ManifestInput {
+  const BakeSettings& settings;
+  const Survey& survey;
+  const TargetList& list;
+  const std::vector<BasisDirection>& bases;
+  const std::vector<DeliveryNote>& notes;   // [targets]
+  const std::vector<Delivery>& deliveries;  // [targets]
+  const SavedScene& saved;
+  const EarlierLightmaps& earlier;
+  std::variant<BakeRecord, ReferenceRecord> record;
+};
+
+/// The entry "bases".
+[[nodiscard]] nlohmann::json to_json(const std::vector<BasisDirection>& bases);
+
+/// Lists what this run made, and what an earlier one did and still fits, in the scene's order.
+/// Everything except "timings" is the same whenever the same bake is run again.
+[[nodiscard]] nlohmann::json make_manifest(const ManifestInput& input);
+
+/// Writes it to the output folder.
+void write_manifest(const ManifestInput& input);
+
+}  // namespace rnmbake

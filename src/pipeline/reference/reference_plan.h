@@ -1,0 +1,51 @@
+// pipeline/reference/reference_plan.h - what a reference emulates and how exact it gets, out of the settings.
+#pragma once
+
+#include "blender/probe.h"
+#include "config/resolve.h"
+#include "trace/gather.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// What is the same for all targets of a reference. Samples and seed come with each target's settings.
+struct ReferencePlan {
+  std::string blender_version;  // whose light units, footprint, edges and faults
+  Footprint footprint = Footprint::half;
+  PastEdge past_edge = PastEdge::retry;
+  bool flat_normal_map = false;  // the model
+  RecipeFaults faults;           // of that model
+  double error = 0;              // share of the mean; 0: off
+  int most_samples = 0;          // with `error`; 0: each target's own
+  int bounces = -1;              // -1: no limit
+  int sh = 0;
+  int threads = 0;
+};
+
+/// `scene_version`: of the Blender that wrote the scene's data. Throws Error(usage) where the settings name a
+/// fault or version that does not exist.
+[[nodiscard]] ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& scene_version);
+
+/// "3.4.1", "4.3", "5.2.2 LTS". Throws Error(usage), naming `where`.
+[[nodiscard]] BlenderVersion blender_version_of(const std::string& text, const std::string& where);
+
+/// The errors that the published recipe has in that Blender.
+[[nodiscard]] RecipeFaults faults_of(const BlenderVersion& version);
+
+struct NamedFault {
+  const char* flag;   // "tilt-clamp"
+  const char* words;  // "tilt clamp"
+  bool RecipeFaults::*on;
+};
+/// Every fault, in the order in which validate adds one to those before it.
+[[nodiscard]] std::span<const NamedFault> all_faults();
+
+/// "tilt-clamp", "bump-shadowing", ...: those that are on.
+[[nodiscard]] std::vector<std::string> names_of(const RecipeFaults& faults);
+
+[[nodiscard]] const char* name_of(Footprint footprint);  // as headers say it: "half texel"
+
+}  // namespace rnmbake

@@ -1,0 +1,34 @@
+// pipeline/render/render_compare.h - one view of a scene in several ways, held against the traced truth.
+#pragma once
+
+#include "pipeline/scene/export_scene.h"
+#include "pipeline/render/render_lightmaps.h"
+#include "pipeline/render/render_view.h"
+#include "blender/blender_session.h"
+#include "report/comparison.h"
+#include "trace/scene.h"
+
+namespace rnmbake {
+
+struct ViewCompareOptions {
+  RenderOptions render;  // its samples: for each pixel of what is traced; looked-up pictures take 16 at most
+  bool with_cycles = true;
+  bool own_materials = false;  // of Cycles' picture
+};
+
+/// Size, seed, threads and bounces for a view of `scene`: its camera's picture, scaled down to `longest`
+/// pixels.
+[[nodiscard]] RenderOptions render_options(const Camera& camera, int longest = 960);
+
+/// Truth, Cycles (not for a scene without a .blend), single lightmap, RNM squared, linear and vrad, as far as
+/// the lightmaps allow; why one is missing is logged. Truth and Cycles are rendered in two independent
+/// halves, so that errors are free of their noise; they are over the pixels that show surfaces. Throws as
+/// render_view() and render_cycles().
+[[nodiscard]] ViewComparison compare_view(Workspace& workspace, const ExportedScene& exported,
+                                          const TraceScene& scene, const SceneLightmaps& lightmaps,
+                                          const ViewCompareOptions& options);
+
+/// What a report says of a view: "Cycles 1.2 %, single lightmap 24 %, ..." (RMSE, of the truth's mean).
+[[nodiscard]] std::string finding_of(const ViewComparison& view);
+
+}  // namespace rnmbake

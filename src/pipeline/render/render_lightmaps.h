@@ -1,0 +1,62 @@
+// pipeline/render/render_lightmaps.h - lightmaps from disk, put back onto the surfaces that they were made for.
+#pragma once
+
+#include "lightmap/decode.h"
+#include "scene/diffuse_scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// The lightmap of an object or of a part of one.
+struct PlacedLightmap {
+  std::string key;
+  std::size_t object = 0;                 // index into Survey::objects
+  const std::vector<Vec2>* uv = nullptr;  // [loops]
+  Lightmap lightmap;
+};
+
+class SceneLightmaps {
+ public:
+  /// `path`: a folder that `bake` or `reference` wrote, or one lightmap. Objects are matched by their keys,
+  /// UVs are those of the layer that a lightmap names. Throws as open_lightmaps() and load_lightmap(), and
+  /// Error(invalid_input) where no object is on both sides, an object lacks the layer, or most of its faces
+  /// lie where the lightmap covers nothing.
+  SceneLightmaps(const std::filesystem::path& path, const Exchange& scene);
+
+  [[nodiscard]] const std::vector<PlacedLightmap>& placed() const { return placed_; }
+
+  /// Index into placed(), -1: none. `triangle`: number of the mesh's triangle.
+  [[nodiscard]] int find(std::size_t object, std::uint32_t triangle) const;
+
+  /// Whose tangent frames follow which UV layer.
+  [[nodiscard]] const std::map<std::size_t, std::string>& tangent_layers() const { return tangent_layers_; }
+
+  /// Why these lightmaps cannot be decoded so; nothing where they can.
+  [[nodiscard]] std::optional<std::string> obstacle(DecodeVariant variant) const;
+
+  /// One for each of placed(). Throws Error(unsupported) where there is an obstacle.
+  [[nodiscard]] std::vector<LightmapDecoder> decoders(DecodeVariant variant) const;
+
+  /// Objects that the tracer shows and that have no lightmap.
+  [[nodiscard]] const std::vector<std::string>& bare() const { return bare_; }
+
+ private:
+  std::vector<PlacedLightmap> placed_;
+  std::map<std::size_t, std::vector<int>> by_triangle_;  // object -> [triangles] -> placed_
+  std::map<std::size_t, std::string> tangent_layers_;
+  std::vector<std::string> bare_;
+};
+
+/// The scene that the bake of `folder` saved because it had to unwrap objects: those UVs are in no other
+/// file. Nothing where it made none, or did not save them.
+[[nodiscard]] std::optional<std::filesystem::path> scene_with_lightmap_uvs(
+    const std::filesystem::path& folder);
+
+}  // namespace rnmbake

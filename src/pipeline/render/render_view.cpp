@@ -1,0 +1,106 @@
+#include "pipeline/render/render_view.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "pipeline/render/render_surfaces.h"
+#include "blender/blender_session.h"
+#include "process/stop.h"
+#include "trace/path.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace rnmbake {
+namespace {
+
+constexpr std::array variants{DecodeVariant::single, DecodeVariant::squared, DecodeVariant::linear,
+                              DecodeVariant::vrad};
+
+/// Lights one place after the other.
+class Shader {
+ public:
+  Shader(const TraceScene& scene, const SceneLightmaps* lightmaps, const Lighting& lighting, int bounces)
+      : scene_(scene),
+        lightmaps_(lightmaps),
+        lighting_(lighting),
+        surfaces_(scene,
+                  lightmaps == nullptr ? std::map<std::size_t, std::string>{} : lightmaps->tangent_layers()) {
+    path_.bounces = bounces < 0 ? -1 : bounces + 1;
+    path_.before = 0;
+    if (lighting.kind != Lighting::Kind::decoded) return;
+    if (lightmaps == nullptr) fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
+    decoders_ = lightmaps->decoders(lighting.variant);
+  }
+
+  [[nodiscard]] Vec3 reflected(const Vertex& vertex, Sampler& sampler) const {
+    if (lighting_.kind == Lighting::Kind::none) return albedo(vertex);
+    if (lighting_.kind == Lighting::Kind::truth) return traced(vertex, sampler);
+    const int number = lightmaps_->find(surfaces_.object_of(vertex), surfaces_.source_of(vertex));
+    return number < 0 ? traced(vertex, sampler) : decoded(vertex, static_cast<std::size_t>(number));
+  }
+
+ private:
+  [[nodiscard]] Vec3 albedo(const Vertex& vertex) const {
+    return scene_.looks().albedo(vertex.look, vertex.uv);
+  }
+
+  [[nodiscard]] Vec3 decoded(const Vertex& vertex, std::size_t number) const {
+    const Vec2 uv = surfaces_.at(vertex, *lightmaps_->placed()[number].uv);
+    return albedo(vertex) * decoders_[number].at(uv, surfaces_.mapped_normal(vertex));
+  }
+
+  /// Light over the face, weighed by the cosine with the normal map's normal.
+  [[nodiscard]] Vec3 traced(Vertex vertex, Sampler& sampler) const {
+    vertex.normal = surfaces_.to_world(vertex, surfaces_.mapped_normal(vertex));
+    std::int64_t rays = 0;
+    return reflected_radiance(scene_, vertex, path_, sampler, rays);
+  }
+
+  const TraceScene& scene_;
+  const SceneLightmaps* lightmaps_;
+  Lighting lighting_;
+  RenderSurfaces surfaces_;
+  PathOptions path_;
+  std::vector<LightmapDecoder> decoders_;
+};
+
+}  // namespace
+
+std::optional<Lighting> lighting_of(const std::string& name) {
+  if (name == "truth") return Lighting{Lighting::Kind::truth, {}};
+  if (name == "none") return Lighting{Lighting::Kind::none, {}};
+  for (const DecodeVariant variant : variants) {
+    if (name == name_of(variant)) return Lighting{Lighting::Kind::decoded, variant};
+  }
+  return std::nullopt;
+}
+
+std::string name_of(const Lighting& lighting) {
+  if (lighting.kind == Lighting::Kind::decoded) return name_of(lighting.variant);
+  return lighting.kind == Lighting::Kind::truth ? "truth" : "none";
+}
+
+const Camera& camera_of(const Exchange& scene) {
+  if (scene.camera) return *scene.camera;
+  fail(ExitCode::invalid_input,
+       "{}: the scene has no camera that this can look through (none at all, or a panorama); add one in "
+       "Blender (Add > Camera) and save",
+       scene.survey.scene_file);
+}
+
+View render_view(const TraceScene& scene, const SceneLightmaps* lightmaps, const Lighting& lighting,
+                 const RenderOptions& options) {
+  const Shader shader(scene, lightmaps, lighting, options.bounces);
+  Progress progress("rendering", progress_for(log::is_quiet(), log::is_jsonl()));
+  View view = trace_view(
+      scene, camera_of(scene.exchange()), options.view,
+      [&](const Vertex& vertex, Sampler& sampler) { return shader.reflected(vertex, sampler); },
+      [&](double share) { progress.update(share, name_of(lighting)); },
+      [] { return StopRequest::requested(); });
+  if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
+  return view;
+}
+
+}  // namespace rnmbake

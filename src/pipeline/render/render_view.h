@@ -1,0 +1,41 @@
+// pipeline/render/render_view.h - the camera's view of a scene, lit by its lightmaps or traced.
+#pragma once
+
+#include "lightmap/decode.h"
+#include "pipeline/render/render_lightmaps.h"
+#include "trace/view.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rnmbake {
+
+/// How surfaces are lit.
+struct Lighting {
+  enum class Kind {
+    decoded,  // albedo x decoded lightmap; what has none is traced
+    truth,    // path traced, with each normal map's normal
+    none,     // the albedo alone, as under white light from everywhere
+  };
+  Kind kind = Kind::truth;
+  DecodeVariant variant = DecodeVariant::squared;  // of decoded
+};
+
+/// "single", "squared", "linear", "vrad", "truth", "none"; nothing for other words.
+[[nodiscard]] std::optional<Lighting> lighting_of(const std::string& name);
+[[nodiscard]] std::string name_of(const Lighting& lighting);
+
+struct RenderOptions {
+  ViewOptions view;
+  int bounces = -1;  // surfaces that light may bounce off before it reaches the one seen; -1: no limit
+};
+
+/// Throws Error(invalid_input) where the scene has none.
+[[nodiscard]] const Camera& camera_of(const Exchange& scene);
+
+/// `lightmaps` may be null where nothing is decoded. Throws as SceneLightmaps::decoders(), and Interrupted.
+[[nodiscard]] View render_view(const TraceScene& scene, const SceneLightmaps* lightmaps,
+                               const Lighting& lighting, const RenderOptions& options);
+
+}  // namespace rnmbake

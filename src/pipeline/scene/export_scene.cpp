@@ -1,0 +1,88 @@
+#include "pipeline/scene/export_scene.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "pipeline/scene/launch_answer.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The launch that writes down what a tracer needs of a lambert scene.
+Exchange launch_export(Workspace& workspace, const BlendPath& lambert) {
+  const Launch launch = launch_on(workspace, "export_entry.py", "export", lambert);
+  const nlohmann::json answer = workspace.run(launch);
+  return read_exported(answered_file(answer, "survey", launch.folder));
+}
+
+void set_layer(Mesh& mesh, const std::string& name, const std::vector<Vec2>& uv) {
+  const auto found = std::find_if(mesh.uv_layers.begin(), mesh.uv_layers.end(),
+                                  [&](const UvLayer& layer) { return layer.name == name; });
+  if (found != mesh.uv_layers.end()) {
+    found->uv = uv;
+  } else {
+    mesh.uv_layers.push_back({name, uv});
+  }
+}
+
+/// What was unwrapped becomes a layer of its mesh. Objects that share a mesh but not its scale have UVs of
+/// their own, and then a mesh of their own.
+void keep_unwrapped(Survey& survey, const std::vector<Target>& targets) {
+  std::map<std::size_t, const Target*> by_object;  // parts of an object share their UVs
+  for (const Target& target : targets) {
+    if (target.unwrapped) by_object.emplace(target.object, &target);
+  }
+  std::map<std::pair<int, const void*>, int> made;  // mesh as it was, UVs -> mesh that has them
+  std::vector<bool> taken(survey.meshes.size());
+  for (const auto& [number, target] : by_object) {
+    SceneObject& object = survey.objects[number];
+    const auto original = static_cast<std::size_t>(object.mesh);
+    const auto [entry, fresh] = made.emplace(std::pair(object.mesh, target->uv.get()), object.mesh);
+    if (fresh && taken[original]) {
+      entry->second = static_cast<int>(survey.meshes.size());
+      survey.meshes.push_back(survey.meshes[original]);
+    }
+    taken[original] = true;
+    object.mesh = entry->second;
+    if (fresh) set_layer(survey.meshes[static_cast<std::size_t>(object.mesh)], target->uv_layer, *target->uv);
+  }
+}
+
+}  // namespace
+
+bool is_exchange(const fs::path& file) {
+  return file.extension() == exchange_ending;
+}
+
+ExportedScene export_scene(Workspace& workspace) {
+  const fs::path file = workspace.settings().scene.file;
+  ExportedScene result;
+  std::vector<std::string> logged;
+  if (is_exchange(file)) {
+    result.exchange = read_exchange(file);
+  } else {
+    const BlendPath own = import_scene(workspace, file);
+    LambertScene lambert = make_lambert_scene(workspace, own);
+    logged = std::move(lambert.warnings);
+    result.blends = SceneBlends{lambert.blend, own};
+    log::info("writing down the scene for the tracer");
+    result.exchange = launch_export(workspace, lambert.blend);
+    result.exchange.survey.scene_file = file.string();
+  }
+  log_warnings(result.exchange.survey, logged);
+  if (result.exchange.survey.objects.empty()) {
+    fail(ExitCode::invalid_input,
+         "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
+         file.string());
+  }
+  result.list = make_targets(workspace.config(), result.exchange.survey);
+  keep_unwrapped(result.exchange.survey, result.list.targets);
+  return result;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,24 @@
+// pipeline/scene/fit_camera.h - a view for scenes whose own camera is missing or not wanted.
+#pragma once
+
+#include "bake/targets.h"
+#include "pipeline/scene/export_scene.h"
+#include "scene/diffuse_scene.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rnmbake {
+
+/// From the right of the front and above (Blender's front is -y), so that the box round all targets, along
+/// the axes, just fits into a picture of that size in pixels. It stands outside of that box: of a closed room
+/// it shows the walls' outsides.
+[[nodiscard]] Camera fit_camera(const Survey& survey, const std::vector<Target>& targets,
+                                std::pair<int, int> size);
+
+/// Gives the scene that camera where it has none, or `always`; says so. Without a size: 960 x 540.
+void give_camera(ExportedScene& exported, bool always = false,
+                 const std::optional<std::pair<int, int>>& size = std::nullopt);
+
+}  // namespace rnmbake

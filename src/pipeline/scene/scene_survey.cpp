@@ -1,0 +1,104 @@
+#include "pipeline/scene/scene_survey.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/object_notes.h"
+#include "blender/blend_header.h"
+#include "pipeline/scene/launch_answer.h"
+
+#include <algorithm>
+
+namespace rnmbake {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Once it has opened: what Blender does not know it leaves out without a word.
+void warn_of_newer(const Workspace& workspace, const BlendPath& scene) {
+  const std::string newer =
+      newer_blend(scene.path(), workspace.blender().info(), "which leaves out what it does not know");
+  if (!newer.empty()) log::warn("{}", newer);
+}
+
+Survey survey_blend(Workspace& workspace, const BlendPath& blend) {
+  const Launch launch = launch_on(workspace, "survey_entry.py", "survey", blend);
+  const nlohmann::json answer = workspace.run(launch);
+  warn_of_newer(workspace, blend);
+  return read_survey(answered_file(answer, "survey", launch.folder));
+}
+
+}  // namespace
+
+nlohmann::json scene_request(const Workspace& workspace, const fs::path& scene) {
+  return {{"scene", fs::absolute(scene).string()},
+          {"allow_scripts", workspace.settings().scene.allow_scripts}};
+}
+
+Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, const BlendPath& scene) {
+  Launch launch;
+  launch.entry = entry;
+  launch.scene = scene;
+  launch.request = scene_request(workspace, scene.path());
+  launch.folder = workspace.new_folder(purpose);
+  return launch;
+}
+
+BlendPath import_scene(Workspace& workspace, const fs::path& file) {
+  if (is_blend(file)) return BlendPath(file);
+  Launch launch;
+  launch.entry = "import_entry.py";
+  launch.request = scene_request(workspace, file);
+  launch.folder = workspace.new_folder("import");
+  const nlohmann::json answer = workspace.run(launch);
+  return BlendPath(answered_file(answer, "blend", launch.folder));
+}
+
+LambertScene make_lambert_scene(Workspace& workspace, const BlendPath& own) {
+  log::info("baking albedo and emission of every material");
+  const Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", own);
+  const nlohmann::json answer = workspace.run(launch);
+  warn_of_newer(workspace, own);
+  LambertScene result{BlendPath(answered_file(answer, "blend", launch.folder)),
+                      answer.at("warnings").get<std::vector<std::string>>()};
+  warn_of_objects(result.warnings);
+  return result;
+}
+
+void log_warnings(Survey& survey, const std::vector<std::string>& logged) {
+  std::vector<std::string> all = logged, fresh;
+  for (const std::string& warning : survey.warnings) {
+    if (std::ranges::find(all, warning) != all.end()) continue;
+    fresh.push_back(warning);
+    all.push_back(warning);
+  }
+  warn_of_objects(fresh);
+  survey.warnings = std::move(all);
+}
+
+Survey survey_file(Workspace& workspace, const fs::path& file) {
+  return survey_blend(workspace, import_scene(workspace, file));
+}
+
+SurveyedScene survey_scene(Workspace& workspace) {
+  const SceneSettings& scene = workspace.settings().scene;
+  const BlendPath own = import_scene(workspace, scene.file);
+  SceneBlends blends{own, own};
+  std::vector<std::string> logged;
+  if (scene.materials == SceneSettings::Materials::lambert) {
+    LambertScene lambert = make_lambert_scene(workspace, own);
+    blends.shown = lambert.blend;
+    logged = std::move(lambert.warnings);
+  }
+  SurveyedScene result{survey_blend(workspace, blends.shown), blends};
+  result.survey.scene_file = scene.file.string();
+  log_warnings(result.survey, logged);
+  if (result.survey.objects.empty()) {
+    fail(ExitCode::invalid_input,
+         "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
+         scene.file.string());
+  }
+  return result;
+}
+
+}  // namespace rnmbake

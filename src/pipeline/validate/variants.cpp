@@ -1,0 +1,67 @@
+#include "pipeline/validate/variants.h"
+
+#include "base/files.h"
+
+#include <algorithm>
+
+namespace rnmbake {
+namespace {
+
+constexpr int traced_for_each_baked = 2;  // paths of the reference for each sample of the bake
+
+/// Whole values in one file, nothing mended: what a comparison wants.
+OutputSettings plain_output(const OutputSettings& output, const std::filesystem::path& dir) {
+  OutputSettings plain;
+  plain.dir = dir;
+  plain.depth = OutputSettings::Depth::full;
+  plain.save_scene = OutputSettings::SaveScene::never;
+  plain.keep_temporary = output.keep_temporary;
+  return plain;
+}
+
+ResolvedConfig config_for(const VariantBase& base, const std::filesystem::path& dir) {
+  ResolvedConfig config = base.workspace.config();
+  config.globals.output = plain_output(config.globals.output, dir);
+  make_folders(dir);
+  return config;
+}
+
+std::filesystem::path output_of(const VariantBase& base) {
+  return base.workspace.settings().output.dir;
+}
+
+}  // namespace
+
+std::filesystem::path half_folder(const VariantBase& base, const BakeVariant& variant, int half) {
+  return output_of(base) / variant.folder / std::to_string(half + 1);
+}
+
+BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const BakeVariant& variant, int half) {
+  ResolvedConfig config = config_for(base, half_folder(base, variant, half));
+  config.globals.bake.recipe = variant.recipe;
+  config.globals.bake.correct_bump = false;
+  config.globals.bake.dispatch = BakingSettings::Dispatch::scene;  // one start of Blender is enough
+  config.globals.scene.materials = variant.materials;
+  TargetList halved = list;
+  for (ObjectSettings& object : halved.settings) {
+    object.samples = std::max(1, object.samples / 2);
+    object.seed += variant.seed + half;
+  }
+  Workspace workspace(config, base.workspace.blender());
+  const bool lambert = variant.materials == SceneSettings::Materials::lambert;
+  SceneBlends blends = base.exported.blends.value();
+  if (!lambert) blends.shown = blends.own;
+  return run_bake(workspace, {base.exported.exchange.survey, halved, base.bases, blends});
+}
+
+ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, const TraceVariant& variant) {
+  const ResolvedConfig config = config_for(base, output_of(base) / variant.folder);
+  TargetList more = list;
+  for (ObjectSettings& object : more.settings) {
+    object.samples *= traced_for_each_baked;
+    object.seed += variant.seed;
+  }
+  return run_reference({base.scene, more, base.bases}, config.globals, variant.plan, variant.title);
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,75 @@
+// sampling/batch_statistics.h - means and standard errors from batches of samples.
+#pragma once
+
+#include "base/math.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace rnmbake {
+
+/// Collects `values` colours for each of `texels` texels. Samples within a batch may depend on each other
+/// (they are stratified), batches may not: the standard error comes from how the batches' means scatter. All
+/// batches are of one size.
+class BatchTally {
+ public:
+  BatchTally(std::size_t texels, std::size_t values)
+      : texels_(texels),
+        values_(values),
+        batch_(texels * values, Vec3(0)),
+        state_(texels * values),
+        whole_(values) {}
+
+  /// Where the samples of the present batch are added up.
+  [[nodiscard]] Vec3* texel(std::size_t index) { return &batch_[index * values_]; }
+  void end_batch(int samples);
+
+  [[nodiscard]] int batches() const { return batches_; }
+  [[nodiscard]] Vec3 mean(std::size_t texel, std::size_t value) const {
+    return state_[texel * values_ + value].mean;
+  }
+  /// Squared standard error of a texel's mean; 0 with fewer than two batches.
+  [[nodiscard]] Vec3 squared_error(std::size_t texel, std::size_t value) const {
+    return squared_error(state_[texel * values_ + value]);
+  }
+  /// Of the mean over all texels, whose errors hang together.
+  [[nodiscard]] Vec3 whole_mean(std::size_t value) const { return whole_[value].mean; }
+  [[nodiscard]] Vec3 whole_squared_error(std::size_t value) const { return squared_error(whole_[value]); }
+
+ private:
+  struct Moments {
+    Vec3 mean{0, 0, 0}, squares{0, 0, 0};  // squares: summed squared distances from the mean (Welford 1962)
+    void add(const Vec3& value, int count) {
+      const Vec3 off = value - mean;
+      mean += off / static_cast<float>(count);
+      squares += off * (value - mean);
+    }
+  };
+  [[nodiscard]] Vec3 squared_error(const Moments& moments) const {
+    if (batches_ < 2) return Vec3(0);
+    return moments.squares / (static_cast<float>(batches_) * static_cast<float>(batches_ - 1));
+  }
+
+  std::size_t texels_, values_;
+  int batches_ = 0;
+  std::vector<Vec3> batch_;     // [texels][values]
+  std::vector<Moments> state_;  // [texels][values]
+  std::vector<Moments> whole_;  // [values]
+};
+
+inline void BatchTally::end_batch(int samples) {
+  ++batches_;
+  const float scale = 1 / static_cast<float>(samples);
+  for (std::size_t v = 0; v < values_; ++v) {
+    Vec3 sum(0);
+    for (std::size_t t = 0; t < texels_; ++t) {
+      Vec3& cell = batch_[t * values_ + v];
+      state_[t * values_ + v].add(cell * scale, batches_);
+      sum += cell;
+      cell = Vec3(0);
+    }
+    whole_[v].add(sum * (scale / static_cast<float>(texels_)), batches_);
+  }
+}
+
+}  // namespace rnmbake

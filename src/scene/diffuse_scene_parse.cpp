@@ -1,0 +1,95 @@
+#include "base/json.h"
+#include "scene/diffuse_scene_parts.h"
+#include "scene/survey_parse.h"
+
+#include <array>
+
+namespace rnmbake {
+namespace {
+
+using nlohmann::json;
+
+Vec3 read_color(const json& values, const std::string& owner) {
+  if (!values.is_array() || values.size() != 3)
+    fail(ExitCode::invalid_input, "{}: {} is no colour", owner, brief(values));
+  return {values.at(0).get<float>(), values.at(1).get<float>(), values.at(2).get<float>()};
+}
+
+Look read_look(const json& entry) {
+  Look look;
+  look.material = entry.at("material").get<std::string>();
+  look.albedo = read_color(entry.at("albedo"), "albedo of material '" + look.material + "'");
+  look.emission = read_color(entry.at("emission"), "emission of material '" + look.material + "'");
+  look.albedo_picture = index_at(entry, "albedo_picture");
+  look.emission_picture = index_at(entry, "emission_picture");
+  look.picture_uv = index_at(entry, "picture_uv");
+  look.normal_map = index_at(entry, "normal_map");
+  if (const auto found = entry.find("transmittance"); found != entry.end())
+    look.transmittance = read_color(*found, "transmittance of material '" + look.material + "'");
+  if (entry.contains("transmittance_picture"))
+    look.transmittance_picture = index_at(entry, "transmittance_picture");
+  return look;
+}
+
+Camera read_camera(const json& entry) {
+  Camera camera;
+  camera.name = entry.at("name").get<std::string>();
+  camera.to_world = read_matrix(entry.at("matrix"), "camera '" + camera.name + "'");
+  camera.orthographic = entry.at("orthographic").get<bool>();
+  camera.angle_x = entry.at("angle_x").get<double>();
+  camera.angle_y = entry.at("angle_y").get<double>();
+  camera.width = entry.at("width").get<double>();
+  camera.shift_x = entry.at("shift_x").get<double>();
+  camera.shift_y = entry.at("shift_y").get<double>();
+  camera.resolution_x = index_at(entry, "resolution_x");
+  camera.resolution_y = index_at(entry, "resolution_y");
+  return camera;
+}
+
+void read_pictures(const json& content, Blob& data, Exchange& scene) {
+  for (const json& entry : content.at("pictures")) scene.pictures.push_back(parse_picture(entry, data));
+  for (const json& entry : content.at("picture_uvs")) {
+    const std::size_t number = scene.picture_uvs.size();
+    scene.picture_uvs.push_back(data.cut<Vec2>(entry, "offset", count_at(entry, "count"),
+                                               [number] { return fmt::format("picture UVs {}: ", number); }));
+  }
+  for (const json& entry : content.at("normal_maps"))
+    scene.normal_maps.push_back({index_at(entry, "picture"), entry.at("uv_layer").get<std::string>(),
+                                 entry.at("strength").get<float>()});
+}
+
+void read_looks(const json& content, Exchange& scene) {
+  for (const json& entry : content.at("looks")) scene.looks.push_back(read_look(entry));
+  for (const json& entry : content.at("object_looks")) {
+    std::vector<int>& slots = scene.object_looks.emplace_back();
+    for (const json& look : entry) slots.push_back(index_of(look, "look"));
+  }
+  scene.unlit.assign(scene.survey.objects.size(), 0);
+  for (const json& number : content.at("unlit")) {
+    const auto object = static_cast<std::size_t>(index_of(number, "object"));
+    if (object >= scene.unlit.size())
+      fail(ExitCode::invalid_input, "unlit: there is no object {}", brief(number));
+    scene.unlit[object] = 1;
+  }
+}
+
+}  // namespace
+
+Exchange parse_exchange_content(const json& content, Blob& data) {
+  Exchange scene;
+  scene.survey = parse_survey(content, data);
+  const json& own = content.at("exchange");
+  read_pictures(own, data, scene);
+  read_looks(own, scene);
+  scene.world.radiance = read_color(own.at("world").at("radiance"), "world");
+  scene.world.picture = index_at(own.at("world"), "picture");
+  if (const json& camera = own.at("camera"); !camera.is_null()) scene.camera = read_camera(camera);
+  for (const json& entry : own.at("outside"))
+    scene.outside.push_back({entry.at("owner").get<std::string>(),
+                             entry.at("what").get<std::vector<std::string>>(),
+                             entry.value("untraced", std::vector<std::string>())});
+  check_exchange(scene);
+  return scene;
+}
+
+}  // namespace rnmbake

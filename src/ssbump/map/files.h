@@ -1,0 +1,66 @@
+// ssbump/map/files.h - weights go in, rows of textures come out: the map itself, or ambient occlusion.
+#pragma once
+
+#include "image/float_image.h"
+#include "image/picture_rows.h"
+#include "ssbump/map/encode.h"
+#include "ssbump/map/metadata.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+enum class SsbumpBits : std::uint8_t { chosen_by_ending, eight, sixteen, floats };
+
+struct SsbumpOutput {
+  std::filesystem::path file;  // .png, .tga, .tif, .exr
+  SsbumpEncoding encoding;
+  SsbumpBits bits = SsbumpBits::chosen_by_ending;
+  bool dither = true;    // of 8 bits
+  bool ao_only = false;  // one channel, ambient occlusion
+  std::uint32_t seed = 0;
+};
+
+/// 8 bits where nothing was chosen, float in an .exr; 16 are half floats in an .exr. Throws Error(usage)
+/// where the ending cannot hold them.
+[[nodiscard]] Storage storage_of(const std::filesystem::path& file, SsbumpBits bits);
+
+/// Least, greatest and mean of what was stored of each channel, as weights: 1 is open.
+struct WeightRange {
+  float least = 0, greatest = 0;
+  double mean = 0;
+};
+
+/// Takes weights (SsbumpWeights: five channels) in rows from top to bottom.
+class SsbumpFile {
+ public:
+  /// `metadata`: power, method and settings; the rest is filled in from `output`.
+  SsbumpFile(const SsbumpOutput& output, SsbumpMetadata metadata, int width, int height);
+
+  /// `weights` is the picture from `first_row` on.
+  void write(int first_row, const FloatImage& weights);
+
+  /// The file appears. Nothing is left behind without it.
+  void commit() { writer_.commit(); }
+
+  /// Of the five channels, over the rows so far.
+  [[nodiscard]] std::vector<WeightRange> ranges() const;
+
+ private:
+  void take_stock(const FloatImage& weights);
+
+  SsbumpOutput output_;
+  Storage storage_;
+  PictureWriter writer_;
+  std::vector<WeightRange> ranges_;  // `mean` is the sum until it is asked for
+  std::size_t texels_ = 0;
+};
+
+/// Packs rows of unit normals into a normal map's file; 16 bits are not dithered, 8 neither, as that would
+/// make flat places noisy.
+[[nodiscard]] PictureForm normal_map_form(int width, int height, Storage storage, bool y_down);
+
+}  // namespace rnmbake

@@ -1,0 +1,122 @@
+#include "trace/lights/emissive_triangle.h"
+
+#include "trace/surface_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace rnmbake {
+namespace {
+
+float brightness(const Vec3& c) {
+  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
+}
+
+/// Sums over rectangles of a picture's texels.
+class PictureSums {
+ public:
+  explicit PictureSums(const Picture& picture) : picture_(picture), width_(picture.width + 1) {
+    const std::size_t size = std::size_t(width_) * (picture.height + 1);
+    light_.resize(size);
+    lit_.resize(size);
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        const float value = brightness(picture.texels[std::size_t(y) * picture.width + x]);
+        const std::size_t at = std::size_t(y + 1) * width_ + x + 1;
+        light_[at] = double(value) + light_[at - 1] + light_[at - width_] - light_[at - width_ - 1];
+        lit_[at] = (value > 0) + lit_[at - 1] + lit_[at - width_] - lit_[at - width_ - 1];
+      }
+    }
+  }
+
+  /// Mean brightness of the texels that reading anywhere in the rectangle may touch; > 0 where one of them
+  /// is.
+  [[nodiscard]] float mean(const Vec2& low, const Vec2& high) const {
+    const int x0 = first(low.x, picture_.width), x1 = last(high.x, picture_.width);
+    const int y0 = first(1 - high.y, picture_.height), y1 = last(1 - low.y, picture_.height);
+    const auto sum = [&](const auto& table) {
+      const auto at = [&](int x, int y) { return table[std::size_t(y) * width_ + x]; };
+      return at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
+    };
+    const std::uint32_t lit = sum(lit_);
+    if (lit == 0) return 0;
+    const double texels = double(x1 - x0) * (y1 - y0);
+    return static_cast<float>(std::max(sum(light_) / texels, 1e-12));
+  }
+
+ private:
+  static int first(float place, int count) {
+    return static_cast<int>(std::clamp(std::floor(place * static_cast<float>(count) - 0.51F), 0.0F,
+                                       static_cast<float>(count - 1)));
+  }
+  static int last(float place, int count) {
+    return static_cast<int>(std::clamp(std::floor(place * static_cast<float>(count) + 0.51F) + 1, 1.0F,
+                                       static_cast<float>(count)));
+  }
+
+  const Picture& picture_;
+  std::size_t width_;
+  std::vector<double> light_;
+  std::vector<std::uint32_t> lit_;
+};
+
+class Finder {
+ public:
+  explicit Finder(const Exchange& scene) : scene_(scene), looks_(scene), sums_(scene.pictures.size()) {}
+
+  [[nodiscard]] float brightness_of(std::uint32_t look, const Vec2* uv) {
+    const int picture = scene_.looks[look].emission_picture;
+    if (picture < 0) return brightness(scene_.looks[look].emission);
+    if (!sums_[picture]) sums_[picture] = std::make_unique<PictureSums>(scene_.pictures[picture]);
+    Vec2 low = uv[0], high = uv[0];
+    for (int k = 1; k < 3; ++k) {
+      low = Vec2(std::min(low.x, uv[k].x), std::min(low.y, uv[k].y));
+      high = Vec2(std::max(high.x, uv[k].x), std::max(high.y, uv[k].y));
+    }
+    const float around = sums_[picture]->mean(low, high);
+    return around > 0 ? (around + 3 * inside(look, uv)) / 4 : 0.0F;
+  }
+
+ private:
+  /// A mean of a few places on the triangle; its texels' rectangle covers neighbours, too.
+  [[nodiscard]] float inside(std::uint32_t look, const Vec2* uv) const {
+    constexpr int steps = 4;
+    float sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      for (int j = 0; i + j < steps; ++j) {
+        const float b1 = (static_cast<float>(i) + 1.0F / 3) / steps;
+        const float b2 = (static_cast<float>(j) + 1.0F / 3) / steps;
+        sum += brightness(looks_.emission(look, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
+      }
+    }
+    constexpr int places = steps * (steps + 1) / 2;
+    return sum / places;
+  }
+
+  const Exchange& scene_;
+  Looks looks_;
+  std::vector<std::unique_ptr<PictureSums>> sums_;  // [pictures], made when first asked for
+};
+
+}  // namespace
+
+std::vector<Glow> glowing_triangles(const Exchange& scene, const Triangles& triangles) {
+  Finder finder(scene);
+  const Looks looks(scene);
+  std::vector<Glow> found;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!looks.emits(triangles.look[t])) continue;
+    Glow glow;
+    glow.brightness = finder.brightness_of(triangles.look[t], &triangles.uv[3 * t]);
+    if (!(glow.brightness > 0)) continue;
+    const Vec3* p = &triangles.position[3 * t];
+    glow.shape = glow_triangle(p[0], p[1], p[2]);
+    glow.triangle = static_cast<std::uint32_t>(t);
+    if (glow.shape.area > 0) found.push_back(glow);
+  }
+  return found;
+}
+
+}  // namespace rnmbake

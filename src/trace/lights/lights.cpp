@@ -1,0 +1,196 @@
+#include "trace/lights/lights.h"
+
+#include "sampling/warps.h"
+#include "trace/lights/light_bounds.h"
+#include "trace/lights/emissive_triangle.h"
+#include "trace/lights/lamp.h"
+#include "trace/lights/light_tree.h"
+#include "trace/lights/light_units.h"
+#include "trace/surface_materials.h"
+#include "trace/lights/world_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rnmbake {
+namespace {
+
+constexpr std::uint32_t not_glowing = ~std::uint32_t(0);
+constexpr float even_share = 0.2F;     // of the choice is even: what is dim may be all that is seen
+constexpr float horizon_share = 0.3F;  // as in the light tree
+
+float brightness(const Vec3& c) {
+  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
+}
+
+/// A sun's irradiance, softened towards the horizon; 0 where all of it is below.
+float sun_importance(const Lamp& sun, const Vec3& normal) {
+  const float slant2 = 1 + sun.radius * sun.radius;
+  const float irradiance =
+      brightness(sun.radiance) * (sun.radius > 0 ? pi_f * sun.radius * sun.radius / slant2 : 1.0F);
+  if (normal == Vec3(0, 0, 0)) return irradiance;
+  const float along = -sun.axis.dot(normal);
+  if (along < -1e-3F - sun.radius / std::sqrt(slant2)) return 0;
+  return irradiance * (horizon_share + (1 - horizon_share) * std::max(along, 0.0F));
+}
+
+}  // namespace
+
+/// What is chosen from: the tree, the world, and each sun.
+struct Lights::Impl {
+  Impl(const Exchange& exchange, const Triangles& all, const std::string& blender_version,
+       const Vec3d& origin)
+      : triangles(all), looks(exchange), world(exchange), glows(glowing_triangles(exchange, all)) {
+    for (Lamp& lamp : read_lamps(exchange.survey, blender_version, origin)) {
+      (lamp.kind == Lamp::Kind::sun ? suns : lamps).push_back(lamp);
+    }
+    std::vector<LightBounds> bounds;
+    for (const Lamp& lamp : lamps) bounds.push_back(lamp_bounds(lamp));
+    glow_of.assign(glows.empty() ? 0 : all.size(), not_glowing);
+    for (std::size_t i = 0; i < glows.size(); ++i) {
+      bounds.push_back(glow_bounds(glows[i]));
+      glow_of[glows[i].triangle] = static_cast<std::uint32_t>(i);
+    }
+    tree = LightTree(bounds);
+  }
+
+  /// Importance of everything, and how many of the groups have any.
+  struct Weights {
+    float tree = 0, world = 0, suns = 0, sum = 0;
+    int groups = 0;
+    [[nodiscard]] float share(float weight) const {
+      return weight > 0 ? (1 - even_share) * weight / sum + even_share / static_cast<float>(groups) : 0.0F;
+    }
+  };
+
+  [[nodiscard]] Weights weigh(const Vec3& point, const Vec3& normal) const {
+    Weights weights;
+    if (only_one()) {  // no need to know how much
+      weights.tree = tree.empty() ? 0.0F : 1.0F;
+      weights.world = world.black() ? 0.0F : 1.0F;
+      weights.suns = suns.empty() ? 0.0F : 1.0F;
+    } else {
+      weights.tree = tree.importance(point, normal);
+      weights.world = world.average() * pi_f;
+      for (const Lamp& sun : suns) weights.suns += sun_importance(sun, normal);
+    }
+    weights.sum = weights.tree + weights.world + weights.suns;
+    weights.groups = (weights.tree > 0) + (weights.world > 0) + (weights.suns > 0);
+    return weights;
+  }
+
+  [[nodiscard]] bool only_one() const {
+    return int(!tree.empty()) + int(!world.black()) + int(!suns.empty()) == 1;
+  }
+
+  [[nodiscard]] LightSample sample_tree(const Vec3& point, const Vec3& normal, const Vec2& place,
+                                        float u) const {
+    const LightTree::Choice choice = tree.choose(point, normal, u);
+    if (choice.probability == 0) return {};
+    LightSample sample = choice.light < lamps.size()
+                             ? sample_lamp(lamps[choice.light], point, place)
+                             : sample_glow(glows[choice.light - lamps.size()], point, place);
+    sample.pdf *= choice.probability;
+    return sample;
+  }
+
+  [[nodiscard]] LightSample sample_glow(const Glow& glow, const Vec3& point, const Vec2& u) const {
+    const GlowTriangle::Place place = glow.shape.sample(point, u);
+    if (place.pdf == 0) return {};
+    LightSample sample;
+    sample.direction = place.direction;
+    sample.distance = place.distance;
+    sample.pdf = place.pdf;
+    sample.chance_hits = true;
+    const Vec2* uv = &triangles.uv[3 * std::size_t(glow.triangle)];
+    sample.radiance = looks.emission(triangles.look[glow.triangle],
+                                     uv[0] * (1 - place.b1 - place.b2) + uv[1] * place.b1 + uv[2] * place.b2);
+    return sample;
+  }
+
+  [[nodiscard]] LightSample sample_suns(const Vec3& normal, const Vec2& place, float u) const {
+    float sum = 0;
+    for (const Lamp& sun : suns) sum += sun_importance(sun, normal);
+    float below = 0;
+    for (const Lamp& sun : suns) {
+      const float share = sun_importance(sun, normal) / sum;
+      below += share;
+      if (share == 0 || (u >= below && &sun != &suns.back())) continue;
+      LightSample sample = sample_lamp(sun, Vec3(0, 0, 0), place);
+      sample.pdf *= share;
+      return sample;
+    }
+    return {};
+  }
+
+  const Triangles& triangles;
+  Looks looks;
+  WorldLight world;
+  std::vector<Glow> glows;
+  std::vector<std::uint32_t> glow_of;  // [triangles] -> glows; empty where nothing glows
+  std::vector<Lamp> lamps, suns;
+  LightTree tree;  // of lamps, then glows
+};
+
+Lights::Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version,
+               const Vec3d& origin)
+    : impl_(std::make_unique<Impl>(scene, triangles, blender_version, origin)) {}
+Lights::~Lights() = default;
+Lights::Lights(Lights&&) noexcept = default;
+Lights& Lights::operator=(Lights&&) noexcept = default;
+
+bool Lights::empty() const {
+  return impl_->tree.empty() && impl_->suns.empty() && impl_->world.black();
+}
+
+LightSample Lights::sample(const Vec3& point, const Vec3& normal, const Vec3& u) const {
+  const Impl::Weights weights = impl_->weigh(point, normal);
+  if (weights.groups == 0) return {};
+  const Vec2 place(u.y, u.z);
+  const float tree = weights.share(weights.tree), world = weights.share(weights.world);
+  const auto within = [&](float from, float width) {
+    return std::clamp((u.x - from) / width, 0.0F, 0.99999994F);
+  };
+  LightSample sample;
+  float probability = tree;
+  if (u.x < tree) {
+    sample = impl_->sample_tree(point, normal, place, within(0, tree));
+  } else if (u.x < tree + world || weights.suns == 0) {
+    if (world == 0) return {};  // rounding ran past the tree
+    sample = impl_->world.sample(normal, place, within(tree, world));
+    probability = world;
+  } else {
+    probability = weights.share(weights.suns);
+    sample = impl_->sample_suns(normal, place, within(tree + world, probability));
+  }
+  sample.pdf *= probability;
+  return sample;
+}
+
+Vec3 Lights::world(const Vec3& direction) const {
+  return impl_->world.radiance(direction);
+}
+
+bool Lights::world_is_even() const {
+  return impl_->world.even();
+}
+
+float Lights::world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direction) const {
+  if (impl_->world.black()) return 0;
+  const Impl::Weights weights = impl_->weigh(point, normal);
+  return weights.share(weights.world) * impl_->world.pdf(normal, direction);
+}
+
+float Lights::triangle_pdf(const Vec3& point, const Vec3& normal, std::uint32_t triangle,
+                           const Vec3& direction, float distance) const {
+  if (impl_->glow_of.empty() || impl_->glow_of[triangle] == not_glowing) return 0;
+  const std::uint32_t glow = impl_->glow_of[triangle];
+  const auto light = static_cast<std::uint32_t>(impl_->lamps.size()) + glow;
+  const float choice = impl_->tree.probability(point, normal, light);
+  if (choice == 0) return 0;
+  const Impl::Weights weights = impl_->weigh(point, normal);
+  return weights.share(weights.tree) * choice * impl_->glows[glow].shape.pdf(point, direction, distance);
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,197 @@
+#include "pipeline/lightmaps/bake_collector.h"
+
+#include "base/error.h"
+#include "image/layered_exr.h"
+#include "lightmap/metadata.h"
+#include "pipeline/fixture.h"
+
+#include <csignal>
+#include <limits>
+
+#include <sys/resource.h>
+
+namespace rnmbake {
+namespace {
+
+/// Pictures for every tile of a dispatch: `value` for the first basis, twice that for the second, ...
+std::vector<FloatImage> pictures_of(const Plan& plan, const DispatchLayout& layout, float value = 0.5F) {
+  std::vector<FloatImage> pictures;
+  for (const std::size_t tile : layout.tiles) {
+    FloatImage picture(plan.tiles[tile].size.width, plan.tiles[tile].size.height, 4);
+    std::fill(picture.data().begin(), picture.data().end(), value * float(plan.tiles[tile].sheet.basis + 1));
+    for (std::size_t i = 3; i < picture.data().size(); i += 4) picture.data()[i] = 1;
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+DispatchLayout layout_of(const Plan& plan, const Dispatch& dispatch) {
+  DispatchLayout layout;
+  for (const std::size_t unit : dispatch.units)
+    layout.tiles.insert(layout.tiles.end(), plan.units[unit].tiles.begin(), plan.units[unit].tiles.end());
+  return layout;
+}
+
+struct Desk {
+  explicit Desk(const BakeSettings& settings = {}, std::size_t objects = 1)
+      : scene(objects, settings),
+        context(scene.context()),
+        desk(context, scene.settings().output, scene.notes()) {}
+
+  void take(const std::vector<std::size_t>& units, float value = 0.5F) {
+    const Dispatch dispatch{units};
+    const DispatchLayout layout = layout_of(scene.plan(), dispatch);
+    desk.take(dispatch, layout, pictures_of(scene.plan(), layout, value));
+  }
+  [[nodiscard]] LayeredImage read(const std::string& name) const { return read_image(scene.folder() / name); }
+
+  Invented scene;
+  BakeContext context;
+  DeliveryDesk desk;
+};
+
+/// Nothing larger than `bytes` can be written in its scope: what a full disk does, without one.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(DeliveryDesk, WritesATargetWhenItsLastUnitArrives) {
+  Desk d({}, 2);
+  d.take({0, 1, 2, 4});
+  EXPECT_TRUE(d.scene.files().empty());
+  EXPECT_FALSE(d.desk.is_settled(0));
+  d.take({3});
+  EXPECT_TRUE(d.desk.is_settled(0));
+  EXPECT_FALSE(d.desk.is_settled(1));
+  EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object0.exr"});
+  const auto& delivered = std::get<Delivered>(*d.desk.deliveries()[0]);
+  EXPECT_EQ(delivered.files, std::vector<std::string>{"object0.exr"});
+  EXPECT_EQ(delivered.counts.covered_texels, 64U);
+}
+
+TEST(DeliveryDesk, LayersHoldAllBasesAndCoverage) {
+  Desk d;
+  d.take({0, 1, 2, 3}, 0.25F);
+  const LayeredImage image = d.read("object0.exr");
+  for (const char* name : {"", "rnm0", "rnm1", "rnm2", "coverage"})
+    ASSERT_NE(image.find(name), nullptr) << name;
+  EXPECT_EQ(image.find("")->pixels.texel(3, 3)[1], 0.25F);
+  EXPECT_EQ(image.find("rnm1")->pixels.texel(3, 3)[1], 0.75F);
+  const LightmapMetadata metadata = read_metadata(image, "object0.exr");
+  EXPECT_EQ(metadata.object, "object0");
+  EXPECT_EQ(metadata.bases.size(), 4U);
+}
+
+TEST(DeliveryDesk, FilesHoldOneLayerEachAndSayWhich) {
+  BakeSettings settings;
+  settings.output.layout = OutputSettings::Layout::files;
+  Desk d(settings);
+  d.take({0, 1, 2, 3});
+  EXPECT_EQ(d.scene.files(),
+            (std::vector<std::string>{"object0.coverage.exr", "object0.flat.exr", "object0.rnm0.exr",
+                                      "object0.rnm1.exr", "object0.rnm2.exr"}));
+  auto listed = std::get<Delivered>(*d.desk.deliveries()[0]).files;
+  std::sort(listed.begin(), listed.end());
+  EXPECT_EQ(listed, d.scene.files());
+  for (const BasisDirection& basis : d.context.bases) {
+    const LayeredImage image = d.read("object0." + basis.name + ".exr");
+    ASSERT_EQ(image.layers.size(), 1U);
+    EXPECT_EQ(image.layers[0].channels, (std::vector<std::string>{"R", "G", "B"}));
+    const bool is_flat = basis.name == "flat";
+    EXPECT_EQ(image.layers[0].pixels.texel(2, 3)[1], is_flat ? 0.5F : float(basis.name.back() - '0' + 2) / 2);
+    EXPECT_EQ(image.attributes.at("rnmbake:layer"), Attribute(basis.name));
+    const auto vector = std::get<std::vector<float>>(image.attributes.at("rnmbake:basis:" + basis.name));
+    EXPECT_EQ(vector, (std::vector<float>{basis.direction.x, basis.direction.y, basis.direction.z}));
+    EXPECT_EQ(read_metadata(image, basis.name).bases.size(), 4U);
+  }
+}
+
+TEST(DeliveryDesk, SaysInTheHeaderThatTexelsWereRepaired) {
+  for (const bool repair : {false, true}) {
+    BakeSettings settings;
+    settings.output.repair = repair;
+    Desk d(settings);
+    const Dispatch dispatch{{0, 1, 2, 3}};
+    const DispatchLayout layout = layout_of(d.scene.plan(), dispatch);
+    auto pictures = pictures_of(d.scene.plan(), layout);
+    pictures[2].texel(4, 4)[0] = std::numeric_limits<float>::quiet_NaN();
+    d.desk.take(dispatch, layout, std::move(pictures));
+    EXPECT_EQ(read_metadata(d.read("object0.exr"), "object0.exr").repaired, repair);
+    EXPECT_EQ(std::get<Delivered>(*d.desk.deliveries()[0]).counts.repaired, repair ? 1U : 0U);
+  }
+}
+
+TEST(DeliveryDesk, GivesUpAMapWithoutANumberAndLosesNothingElse) {
+  for (const bool repair : {false, true}) {
+    BakeSettings settings;
+    settings.output.repair = repair;
+    Desk d(settings, 2);
+    d.take({0, 1, 2, 3}, std::numeric_limits<float>::quiet_NaN());
+    d.take({4, 5, 6, 7});
+    EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object1.exr"});
+    EXPECT_NE(std::get<NotDelivered>(*d.desk.deliveries()[0]).reason.find("NaN"), std::string::npos);
+    EXPECT_TRUE(std::holds_alternative<Delivered>(*d.desk.deliveries()[1]));
+    EXPECT_EQ(count_failed(d.desk.deliveries()), 1U);
+  }
+}
+
+TEST(DeliveryDesk, DoesNotWriteWhatWasGivenUp) {
+  Desk d({}, 2);
+  d.take({0, 1});
+  d.desk.give_up(0, "the reason");
+  d.take({2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object1.exr"});
+  EXPECT_EQ(reason_of(d.desk, 0), "the reason");
+}
+
+TEST(DeliveryDesk, KeepsTheFirstReasonAndWhatWasDelivered) {
+  Desk d({}, 2);
+  d.desk.give_up(0, "first");
+  d.desk.give_up(0, "second");
+  EXPECT_EQ(reason_of(d.desk, 0), "first");
+  d.take({4, 5, 6, 7});
+  d.desk.give_up(1, "too late");
+  EXPECT_TRUE(is_delivered(d.desk, 1));
+}
+
+TEST(DeliveryDesk, GivesUpATargetWithoutATexelAndGoesOn) {
+  Desk d({}, 2);
+  const Dispatch dispatch{{0, 1, 2, 3, 4, 5, 6, 7}};
+  const DispatchLayout layout = layout_of(d.scene.plan(), dispatch);
+  auto pictures = pictures_of(d.scene.plan(), layout);
+  for (std::size_t i = 0; i < 4; ++i) std::fill(pictures[i].data().begin(), pictures[i].data().end(), 0.0F);
+  d.desk.take(dispatch, layout, std::move(pictures));
+  EXPECT_NE(reason_of(d.desk, 0).find("no texel of 'object0'"), std::string::npos);
+  EXPECT_TRUE(is_delivered(d.desk, 1));
+}
+
+TEST(DeliveryDesk, PassesOnThatTheDiskIsFullAndLeavesNothingBehind) {
+  Desk d;
+  const FileSizeLimit limit(64);
+  try {
+    d.take({0, 1, 2, 3});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    EXPECT_NE(std::string(error.what()).find("object0.exr"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(d.scene.files().empty());
+}
+
+}  // namespace
+}  // namespace rnmbake
