@@ -5,7 +5,7 @@
 #include "bake/request.h"
 #include "base/error.h"
 #include "scene/surface.h"
-#include "scene/survey.h"
+#include "scene/survey_parse.h"
 #include "scene/uv_report.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "ssbump_closed_forms.h"
 
 #include "base/math.h"
-#include "ssbump/generate/lobes.h"
+#include "ssbump/map/lobes.h"
 
 #include <algorithm>
 #include <cmath>

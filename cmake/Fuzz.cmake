@@ -16,7 +16,7 @@ add_link_options(-fsanitize=address,undefined)
 function(rnm_fuzz_targets)
   # The one file of the trace room that reads a scene; the rest of it needs Embree.
   add_executable(exchange_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/exchange_fuzz.cpp
-                                                ${CMAKE_SOURCE_DIR}/src/trace/triangles.cpp)
+                                                ${CMAKE_SOURCE_DIR}/src/trace/geometry/triangles.cpp)
   target_link_options(exchange_fuzz PRIVATE -fsanitize=fuzzer)
   add_executable(exchange_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/exchange_seeds.cpp)
   foreach(TARGET exchange_fuzz exchange_seeds)
@@ -36,7 +36,7 @@ function(rnm_fuzz_targets)
   add_executable(project_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_fuzz.cpp
                                                ${CMAKE_SOURCE_DIR}/src/cli/basis_file.cpp)
   target_link_options(project_fuzz PRIVATE -fsanitize=fuzzer)
-  target_link_libraries(project_fuzz PRIVATE config basis tomlplusplus::tomlplusplus rnm_warnings)
+  target_link_libraries(project_fuzz PRIVATE config encoding tomlplusplus::tomlplusplus rnm_warnings)
   add_executable(project_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_seeds.cpp)
   target_link_libraries(project_seeds PRIVATE config rnm_warnings)
   # Flags and pictures; the libraries that read pictures are the system's, without sanitizers.

@@ -81,4 +81,15 @@ struct Target {
   return {basis.x, target.flip_green ? -basis.y : basis.y, basis.z};
 }
 
+/// An object of the scene that is not baked, and why.
+struct Skipped {
+  std::string key, reason;
+};
+
+struct TargetList {
+  std::vector<Target> targets;
+  std::vector<ObjectSettings> settings;  // [targets]
+  std::vector<Skipped> skipped;
+};
+
 }  // namespace rnmbake

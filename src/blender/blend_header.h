@@ -1,7 +1,7 @@
 // blender/blend_header.h - which Blender saved a .blend, read from its first bytes.
 #pragma once
 
-#include "blender/probe.h"
+#include "blender/blender_info.h"
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "blender/blend_path.h"
-#include "blender/probe.h"
+#include "blender/blender_info.h"
 
 #include <filesystem>
 #include <functional>

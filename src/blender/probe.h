@@ -1,32 +1,14 @@
 // blender/probe.h - which Blender is there and what it can do.
 #pragma once
 
-#include <compare>
+#include "blender/blender_info.h"
+
 #include <filesystem>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace rnmbake {
 
 class ScriptFolder;
-
-struct BlenderVersion {
-  int major = 0, minor = 0, patch = 0;
-  auto operator<=>(const BlenderVersion&) const = default;
-};
-
-inline constexpr BlenderVersion oldest_blender = {3, 4, 0};
-
-struct BlenderInfo {
-  std::filesystem::path executable;
-  BlenderVersion version;
-  std::string version_text;          // as printed: "3.4.1"
-  std::string build;                 // build date, hash, platform where printed
-  std::vector<std::string> devices;  // "CPU", "CUDA", ...: compute devices that Cycles lists
-  bool has_numpy = false;            // the glTF importer needs it
-  bool has_denoiser = false;
-};
 
 /// Cheap (`blender --version`, a tenth of a second): executable, version and build; the rest stays empty.
 /// Error(environment) if that is no Blender, one older than oldest_blender, or it does not answer.

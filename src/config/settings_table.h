@@ -1,7 +1,7 @@
 // config/settings_table.h - the lines of the table; config/settings.h is what others read.
 #pragma once
 
-#include "config/settings.h"
+#include "config/setting.h"
 
 #include <vector>
 

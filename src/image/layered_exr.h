@@ -1,19 +1,15 @@
 // image/layered_exr.h - multi-layer OpenEXR files in and out.
 #pragma once
 
+#include "image/attribute.h"
 #include "image/float_image.h"
 
 #include <filesystem>
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace rnmbake {
-
-/// A header attribute: text, a number, or a list of numbers (written as a float array where the format
-/// has one, read back as the same). OpenImageIO drops empty texts when it reads.
-using Attribute = std::variant<std::string, int, float, std::vector<float>>;
 
 /// One layer of a file. The layer named "" holds the plain channels R,G,B; any other name becomes
 /// `name.R`, `name.G`, ... A layer of one channel whose channel name is empty is written as `name` alone

@@ -2,7 +2,7 @@
 // Private to the image room, as it shows OpenImageIO's types.
 #pragma once
 
-#include "image/layered_exr.h"
+#include "image/attribute.h"
 
 #include <filesystem>
 #include <map>

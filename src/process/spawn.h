@@ -1,7 +1,7 @@
 // process/spawn.h - fork and exec, with every failure of the child told to the parent.
 #pragma once
 
-#include "process/run.h"
+#include "process/process.h"
 
 #include <sys/types.h>
 

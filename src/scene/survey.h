@@ -6,7 +6,6 @@
 #include "scene/mesh.h"
 
 #include <array>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -60,10 +59,5 @@ struct Survey {
     return meshes[static_cast<std::size_t>(object.mesh)];
   }
 };
-
-/// Reads and checks sizes, indices and finiteness. Throws Error(io) where a file cannot be read, and
-/// Error(invalid_input) naming the object and what is wrong; an object whose mesh has a NaN or infinite
-/// position, UV or matrix is named with its first bad element.
-[[nodiscard]] Survey read_survey(const std::filesystem::path& json_file);
 
 }  // namespace rnmbake

@@ -18,4 +18,9 @@ namespace rnmbake {
 /// The 16 numbers of Blender's matrix, row by row, for column vectors. `owner`: "light 'Lamp'".
 [[nodiscard]] Mat44 read_matrix(const nlohmann::json& values, const std::string& owner);
 
+/// Reads and checks sizes, indices and finiteness. Throws Error(io) where a file cannot be read, and
+/// Error(invalid_input) naming the object and what is wrong; an object whose mesh has a NaN or infinite
+/// position, UV or matrix is named with its first bad element.
+[[nodiscard]] Survey read_survey(const std::filesystem::path& json_file);
+
 }  // namespace rnmbake

@@ -11,7 +11,7 @@
 // meet, and lamps, stay each texel's own.
 #pragma once
 
-#include "trace/gather.h"
+#include "trace/gather_options.h"
 #include "sampling/cosine_lobes.h"
 #include "trace/path.h"
 #include "trace/texel_samples.h"

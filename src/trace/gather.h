@@ -1,83 +1,13 @@
 // trace/gather.h - the reference: unbiased E/pi of every texel of a target, for all directions in one pass.
 #pragma once
 
-#include "encoding/basis_set.h"
-#include "image/float_image.h"
-#include "scene/surface.h"
+#include "trace/gather_options.h"
 #include "trace/scene.h"
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace rnmbake {
-
-/// What a texel averages over around its centre (clipped to the triangle that owns the texel).
-enum class Footprint { centre, half, full };  // half: Blender < 5, full: Blender >= 5
-
-/// What becomes of a place in the footprint that lies past the triangle's edge. mirror: it is folded back in,
-/// one barycentric weight after the other (Blender < 4); retry: up to ten others are tried, then the centre
-/// is taken (Blender >= 4).
-enum class PastEdge { mirror, retry };
-
-/// The errors of the published recipe, each of which the tracer can make too (docs/reference.md).
-struct RecipeFaults {
-  bool tilt_clamp = false;       // Blender 3.4, 3.5: the closure's normal is bent towards the surface's
-  bool bump_shadowing = false;   // a factor below 1 on closures whose normal is not the surface's
-  bool self_reflection = false;  // the object's own surface has the basis normal for its bounces too
-  bool below_horizon = false;    // lamps under the surface but above the basis' horizon count
-  bool no_diffuse = false;       // surfaces that reflect nothing, such as lamps, bake black
-  [[nodiscard]] bool any() const {
-    return tilt_clamp || bump_shadowing || self_reflection || below_horizon || no_diffuse;
-  }
-};
-
-struct GatherTarget {
-  const Surface* surface = nullptr;
-  std::size_t object = 0;  // index into Survey::objects
-  int width = 0, height = 0;
-};
-
-struct GatherOptions {
-  std::vector<BasisDirection> directions;  // right-handed, Y up, in each texel's own frame
-  int sh_order = 0;  // 1, 2 or 3: also 1, 4 or 9 SH coefficients of the incoming radiance
-  Footprint footprint = Footprint::half;
-  PastEdge past_edge = PastEdge::retry;
-  int samples = 256;  // paths for each texel; with `error` the most
-  double error = 0;   // > 0: stop where the relative standard error of the target's texels (RMS over them,
-                      // over their mean) is that small
-  int bounces = -1;   // surfaces that a path may bounce off after the texel's own; -1: no limit
-  std::uint64_t seed = 0;
-  int threads = 0;                                 // 0: all cores
-  bool light_sampling = true, chance_hits = true;  // the two ways to find light; off only to test the other
-  bool reuse = true;                               // texels share the ends of their paths (trace/reuse.h)
-  RecipeFaults faults;
-  std::string blender_version;  // whose faults
-};
-
-/// One direction of one target. Uncovered texels are 0.
-struct GatheredDirection {
-  FloatImage radiance;                         // RGB, E/pi
-  FloatImage standard_error;                   // RGB, of each texel
-  std::array<double, 3> mean{}, mean_error{};  // over the covered texels; standard error of it
-};
-
-struct Gathered {
-  std::vector<GatheredDirection> directions;
-  std::vector<FloatImage> sh;  // RGB each, order l, m = 0: (0,0), (1,-1), (1,0), (1,1), ...; tangent space
-  FloatImage coverage;         // one channel, 0 or 1
-  FloatImage validity;         // one channel: share of the first rays that did not meet a back face
-  std::int64_t paths = 0;      // traced for this target
-  std::int64_t rays = 0;
-};
-
-struct GatherProgress {
-  double share = 0;        // of all work; with `error` an estimate
-  std::size_t target = 0;  // at work now
-};
 
 /// With RecipeFaults the result is what the published recipe bakes, and each direction is seen by its own
 /// rays. Deterministic for a seed at any number of threads. `done` receives each target when it is complete,

@@ -8,7 +8,7 @@
 
 #include "base/math.h"
 #include "scene/surface.h"
-#include "trace/gather.h"
+#include "trace/gather_options.h"
 #include "trace/scene.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "trace/scene.h"
 
 #include "base/clock.h"
-#include "trace/accelerator.h"
+#include "trace/geometry/accelerator.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 #include "base/math.h"
 #include "scene/diffuse_scene.h"
 #include "trace/lights/lights.h"
-#include "trace/surface_materials.h"
+#include "trace/geometry/surface_materials.h"
 #include "trace/ray_log.h"
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <algorithm>
 #include <cmath>

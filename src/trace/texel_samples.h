@@ -3,7 +3,7 @@
 
 #include "base/math.h"
 #include "scene/surface.h"
-#include "trace/gather.h"
+#include "trace/gather_options.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "fuzz/parts.h"
 #include "scene/diffuse_scene.h"
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <algorithm>
 #include <array>

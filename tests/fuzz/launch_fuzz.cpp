@@ -11,7 +11,7 @@
 #include "blender/progress_tail.h"
 #include "pipeline/scene/launch_answer.h"
 #include "scene/diffuse_scene.h"
-#include "scene/survey.h"
+#include "scene/survey_parse.h"
 
 #include <algorithm>
 #include <cstdint>

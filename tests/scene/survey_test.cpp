@@ -1,4 +1,4 @@
-#include "scene/survey.h"
+#include "scene/survey_parse.h"
 
 #include "base/error.h"
 

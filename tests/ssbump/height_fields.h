@@ -3,7 +3,7 @@
 
 #include "ssbump/heights/height_field.h"
 #include "ssbump/heights/height_shadows.h"
-#include "ssbump/generate/lobes.h"
+#include "ssbump/map/lobes.h"
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "scene/diffuse_scene.h"
 #include "trace/lights/lights.h"
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <cmath>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "scene/surface.h"
 #include "support/bases.h"
 #include "trace/gather.h"
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <array>
 #include <cmath>

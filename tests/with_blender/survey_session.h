@@ -7,7 +7,7 @@
 #include "blender/probe.h"
 #include "blender/real_blender.h"
 #include "process/run.h"
-#include "scene/survey.h"
+#include "scene/survey_parse.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,22 +5,12 @@
 #include "bake/request.h"
 #include "blender/blend_path.h"
 #include "pipeline/lightmaps/bake_collector.h"
+#include "pipeline/lightmaps/bake_timings.h"
 #include "blender/blender_session.h"
 
 #include <vector>
 
 namespace rnmbake {
-
-/// What the launches cost, summed over all of them.
-struct BakeTimings {
-  int launches = 0, failed_launches = 0;
-  double wall_seconds = 0;     // of the whole baking step
-  double launch_seconds = 0;   // Blender processes, start to end
-  double prepare_seconds = 0;  // inside: receivers and materials
-  double bake_seconds = 0;     // inside: bake() calls, i.e. Cycles and its scene synchronisation
-  double save_seconds = 0;     // inside: pixels to disk
-  std::size_t peak_bytes = 0;  // largest Blender process
-};
 
 /// Runs all dispatches of the plan. A failed one is split until the offender is alone (and then tried
 /// settings.run.retries times more); what remains is delivered, what failed is given up at the desk. One that

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "base/read_file.h"
 #include "image/channels.h"
-#include "pipeline/lightmaps/manifest.h"
+#include "pipeline/lightmaps/manifest_file.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 #include "base/read_file.h"
 #include "base/text.h"
 #include "lightmap/metadata.h"
-#include "pipeline/lightmaps/manifest.h"
+#include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/scene/scene_survey.h"
 #include "pipeline/lightmaps/target_facts.h"
 

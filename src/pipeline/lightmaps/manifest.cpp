@@ -175,30 +175,6 @@ std::string saved_file(const ManifestInput& input) {
 
 }  // namespace
 
-nlohmann::json to_json(const std::vector<BasisDirection>& bases) {
-  json list = json::array();
-  for (const BasisDirection& basis : bases) {
-    list.push_back(
-        {{"name", basis.name}, {"direction", {basis.direction.x, basis.direction.y, basis.direction.z}}});
-  }
-  return list;
-}
-
-nlohmann::json read_manifest(const std::filesystem::path& file) {
-  json manifest = parse_json(read_text(file), file.string());
-  const auto version = manifest.find("schema_version");
-  if (version == manifest.end() || !version->is_number_integer()) {
-    fail(ExitCode::invalid_input, "{}: is no manifest (no schema_version); name a folder that rnmbake wrote",
-         file.string());
-  }
-  if (*version != manifest_schema_version) {
-    fail(ExitCode::unsupported,
-         "{}: schema_version is {}, this rnmbake reads {}; use the rnmbake that wrote it", file.string(),
-         brief(*version), manifest_schema_version);
-  }
-  return manifest;
-}
-
 nlohmann::json make_manifest(const ManifestInput& input) {
   const LightmapMetadata common = input.notes.empty() ? LightmapMetadata{} : input.notes.front().metadata;
   json manifest{{"schema_version", manifest_schema_version},

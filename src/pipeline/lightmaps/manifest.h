@@ -4,9 +4,10 @@
 
 #include "bake/receiver.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
-#include "pipeline/bake/dispatcher.h"
+#include "pipeline/lightmaps/bake_timings.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
-#include "pipeline/scene/make_targets.h"
+#include "pipeline/lightmaps/manifest_file.h"
+#include "bake/targets.h"
 #include "scene/diffuse_scene.h"
 
 #include <cstdint>
@@ -17,13 +18,6 @@
 #include <nlohmann/json.hpp>
 
 namespace rnmbake {
-
-/// Raised when a reader of the old form would misunderstand the new one.
-inline constexpr int manifest_schema_version = 1;
-
-/// Throws Error(invalid_input) naming the file where it is no manifest, Error(unsupported) where it has
-/// another schema version.
-[[nodiscard]] nlohmann::json read_manifest(const std::filesystem::path& file);
 
 /// What only a bake has to say.
 struct BakeRecord {
@@ -58,9 +52,6 @@ struct ManifestInput {
   const EarlierLightmaps& earlier;
   std::variant<BakeRecord, ReferenceRecord> record;
 };
-
-/// The entry "bases".
-[[nodiscard]] nlohmann::json to_json(const std::vector<BasisDirection>& bases);
 
 /// Lists what this run made, and what an earlier one did and still fits, in the scene's order.
 /// Everything except "timings" is the same whenever the same bake is run again.

@@ -6,7 +6,7 @@
 #include "base/read_file.h"
 #include "image/sample.h"
 #include "pipeline/compare/compare_folder.h"
-#include "pipeline/lightmaps/manifest.h"
+#include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/render/render_surfaces.h"
 
 #include <algorithm>

@@ -5,21 +5,7 @@
 #include "config/resolve.h"
 #include "scene/survey.h"
 
-#include <string>
-#include <vector>
-
 namespace rnmbake {
-
-/// An object of the scene that is not baked, and why.
-struct Skipped {
-  std::string key, reason;
-};
-
-struct TargetList {
-  std::vector<Target> targets;
-  std::vector<ObjectSettings> settings;  // [targets]
-  std::vector<Skipped> skipped;
-};
 
 /// Selects objects, splits them, chooses their UVs and sizes; unwraps those that need it. What a lightmap
 /// cannot show of its surface is warned of, one line for each kind. Every object that cannot be baked is

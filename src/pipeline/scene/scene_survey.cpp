@@ -1,5 +1,6 @@
 #include "pipeline/scene/scene_survey.h"
 
+#include "scene/survey_parse.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/object_notes.h"

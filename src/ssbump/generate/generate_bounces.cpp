@@ -1,7 +1,7 @@
 #include "ssbump/generate/generate_bounces.h"
 
 #include "ssbump/generate/hemisphere_rays.h"
-#include "ssbump/generate/lobes.h"
+#include "ssbump/map/lobes.h"
 #include "ssbump/heights/trace_heights.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // ssbump/generate/generate_bounces.h - light that reaches a texel off other texels.
 #pragma once
 
-#include "ssbump/generate/generate.h"
+#include "ssbump/generate_options.h"
 
 namespace rnmbake {
 

@@ -1,7 +1,7 @@
 // ssbump/generate/generate_rays.h - weights by rays: the truth that the horizon's are measured against, and cones.
 #pragma once
 
-#include "ssbump/generate/generate.h"
+#include "ssbump/generate_options.h"
 
 namespace rnmbake {
 

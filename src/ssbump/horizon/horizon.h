@@ -1,10 +1,12 @@
 // ssbump/horizon/horizon.h - weights out of horizons: sweeps in some azimuths, exact integrals over the elevations.
 #pragma once
 
-#include "ssbump/generate/generate.h"
+#include "ssbump/generate_options.h"
+#include "ssbump/map/weights.h"
 #include "ssbump/horizon/horizon_sums.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace rnmbake {
 

@@ -1,6 +1,6 @@
 #include "ssbump/horizon/horizon_azimuth.h"
 
-#include "ssbump/generate/lobes.h"
+#include "ssbump/map/lobes.h"
 
 #include <algorithm>
 #include <cmath>

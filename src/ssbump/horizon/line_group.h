@@ -2,7 +2,7 @@
 // pass.
 #pragma once
 
-#include "ssbump/horizon/horizon_sweep.h"
+#include "ssbump/horizon/sweep_lines.h"
 
 #include <cstddef>
 

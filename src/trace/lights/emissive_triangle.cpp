@@ -1,6 +1,6 @@
 #include "trace/lights/emissive_triangle.h"
 
-#include "trace/surface_materials.h"
+#include "trace/geometry/surface_materials.h"
 
 #include <algorithm>
 #include <cmath>

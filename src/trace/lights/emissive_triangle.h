@@ -4,7 +4,7 @@
 #include "base/math.h"
 #include "scene/diffuse_scene.h"
 #include "trace/lights/light_triangle.h"
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "trace/lights/lights.h"
+#include "trace/lights/light_sample.h"
 
 namespace rnmbake {
 

@@ -6,7 +6,7 @@
 #include "trace/lights/lamp.h"
 #include "trace/lights/light_tree.h"
 #include "trace/lights/light_units.h"
-#include "trace/surface_materials.h"
+#include "trace/geometry/surface_materials.h"
 #include "trace/lights/world_light.h"
 
 #include <algorithm>

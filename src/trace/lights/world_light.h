@@ -3,7 +3,7 @@
 
 #include "base/math.h"
 #include "scene/diffuse_scene.h"
-#include "trace/lights/lights.h"
+#include "trace/lights/light_sample.h"
 
 #include <vector>
 

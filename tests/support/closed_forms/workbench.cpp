@@ -1,4 +1,5 @@
 #include "closed_forms/workbench.h"
+#include "scene/survey_parse.h"
 
 #include "base/error.h"
 #include "blender/find.h"

@@ -1,4 +1,4 @@
-// trace/triangles.h - every triangle of a scene in world space, as flat arrays.
+// trace/geometry/triangles.h - every triangle of a scene in world space, as flat arrays.
 #pragma once
 
 #include "base/math.h"

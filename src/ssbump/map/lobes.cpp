@@ -1,4 +1,4 @@
-#include "ssbump/generate/lobes.h"
+#include "ssbump/map/lobes.h"
 
 #include "encoding/rnm.h"
 

@@ -1,4 +1,4 @@
-// trace/surface_materials.h - albedo, emission and transmittance at a place on a triangle.
+// trace/geometry/surface_materials.h - albedo, emission and transmittance at a place on a triangle.
 #pragma once
 
 #include "base/math.h"

@@ -1,9 +1,9 @@
-// trace/accelerator.h - Embree's tree over a scene's triangles. Private to the trace room.
+// trace/geometry/accelerator.h - Embree's tree over a scene's triangles. Private to the trace room.
 #pragma once
 
 #include "rays/embree_scene.h"
-#include "trace/surface_materials.h"
-#include "trace/triangles.h"
+#include "trace/geometry/surface_materials.h"
+#include "trace/geometry/triangles.h"
 
 #include <atomic>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "trace/accelerator.h"
+#include "trace/geometry/accelerator.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "trace/surface_materials.h"
+#include "trace/geometry/surface_materials.h"
 
 #include <algorithm>
 #include <cmath>

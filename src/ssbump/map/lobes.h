@@ -1,4 +1,4 @@
-// ssbump/generate/lobes.h - the axes that light is sorted by, and what arrives along them where nothing stands in the
+// ssbump/map/lobes.h - the axes that light is sorted by, and what arrives along them where nothing stands in the
 // way.
 #pragma once
 

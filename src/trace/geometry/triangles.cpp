@@ -1,4 +1,4 @@
-#include "trace/triangles.h"
+#include "trace/geometry/triangles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/survey.h"
+#include "scene/survey_parse.h"
 
 #include "base/error.h"
 #include "base/files.h"
@@ -6,7 +6,6 @@
 #include "base/read_file.h"
 #include "base/text.h"
 #include "scene/survey_meshes.h"
-#include "scene/survey_parse.h"
 
 #include <cmath>
 #include <set>

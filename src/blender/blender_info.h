@@ -1,0 +1,28 @@
+// blender/blender_info.h - a Blender: its version and what it can do.
+#pragma once
+
+#include <compare>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct BlenderVersion {
+  int major = 0, minor = 0, patch = 0;
+  auto operator<=>(const BlenderVersion&) const = default;
+};
+
+inline constexpr BlenderVersion oldest_blender = {3, 4, 0};
+
+struct BlenderInfo {
+  std::filesystem::path executable;
+  BlenderVersion version;
+  std::string version_text;          // as printed: "3.4.1"
+  std::string build;                 // build date, hash, platform where printed
+  std::vector<std::string> devices;  // "CPU", "CUDA", ...: compute devices that Cycles lists
+  bool has_numpy = false;            // the glTF importer needs it
+  bool has_denoiser = false;
+};
+
+}  // namespace rnmbake

@@ -1,0 +1,19 @@
+// pipeline/lightmaps/bake_timings.h - what the launches of a bake cost.
+#pragma once
+
+#include <cstddef>
+
+namespace rnmbake {
+
+/// What the launches cost, summed over all of them.
+struct BakeTimings {
+  int launches = 0, failed_launches = 0;
+  double wall_seconds = 0;     // of the whole baking step
+  double launch_seconds = 0;   // Blender processes, start to end
+  double prepare_seconds = 0;  // inside: receivers and materials
+  double bake_seconds = 0;     // inside: bake() calls, i.e. Cycles and its scene synchronisation
+  double save_seconds = 0;     // inside: pixels to disk
+  std::size_t peak_bytes = 0;  // largest Blender process
+};
+
+}  // namespace rnmbake
