@@ -134,7 +134,7 @@ class Chapter {
     line("|---|---|---|---|---|---|---|");
     for (const HorizonCase& form : horizon_cases()) {
       const auto blend = bench_.build(form.scene);
-      const Survey survey = bench_.survey(blend);
+      const SceneSurvey survey = bench_.survey(blend);
       for (const char* mode : {"identity", "clamp"}) {
         const Baked baked = bench_.bake(blend, joined(horizon_flags(), {"--horizon", mode}));
         const ErrorSummary below =

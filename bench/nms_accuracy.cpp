@@ -6,9 +6,9 @@
 #include "image/layered_exr.h"
 #include "ssbump/heights/height_shadows.h"
 #include "ssbump/map/normal_map.h"
-#include "ssbump/normal_shadows/normal_shadows.h"
 #include "ssbump/map/normals.h"
 #include "ssbump/map/slope_curl.h"
+#include "ssbump/normal_shadows/normal_shadows.h"
 
 #include <algorithm>
 #include <array>

@@ -56,7 +56,7 @@ Uvs uvs_of(const Mesh& mesh) {
   return std::make_shared<const std::vector<Vec2>>(std::move(uv));
 }
 
-std::vector<Target> targets_of(const Survey& survey) {
+std::vector<Target> targets_of(const SceneSurvey& survey) {
   std::vector<Target> targets;
   for (std::size_t i = 0; i < survey.objects.size(); ++i) {
     const Mesh& mesh = survey.mesh_of(survey.objects[i]);
@@ -84,7 +84,7 @@ std::vector<BasisDirection> flat_and_rnm() {
 std::size_t plan_once(const std::filesystem::path& survey_file, const std::filesystem::path& folder,
                       Laps& laps) {
   laps.start();
-  const Survey survey = read_survey(survey_file);
+  const SceneSurvey survey = read_survey(survey_file);
   laps.lap("read survey");
   const std::vector<Target> targets = targets_of(survey);
   const std::vector<BasisDirection> bases = flat_and_rnm();
@@ -98,15 +98,16 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
     laps.lap("tangent frames");
     const Surface surface = make_surface(mesh, target.part.triangles, *target.uv, frames, object.to_world);
     laps.lap("surface");
-    Sheets sheets = make_sheets(surface, bases, ObjectSettings::Horizon::identity, Vec2(side));
+    ReceiverPasses passes =
+        make_receiver_passes(surface, bases, ObjectSettings::Horizon::identity, Vec2(side));
     laps.lap("sheets");
-    add_receiver_units(plan, i, target, std::move(sheets), bases, {});
+    add_receiver_tasks(plan, i, target, std::move(passes), bases, {});
     laps.lap("crop");
   }
-  group_units(plan, BakingSettings::Dispatch::scene);
+  group_tasks(plan, BakingSettings::Dispatch::scene);
   laps.lap("group");
   const BakeContext context{survey, targets, bases, plan};
-  const BakeRequest request = receiver_request(context, plan.dispatches.front(), 1 << 24, folder);
+  const BakeRequest request = receiver_request(context, plan.batches.front(), 1 << 24, folder);
   laps.lap("write arrays");
   for (const Target& target : targets) {
     const SceneObject& object = survey.objects[target.object];
@@ -115,7 +116,7 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
   laps.lap("uv report (inspect only)");
   laps.finish();
   std::size_t corners = 0;
-  for (const Tile& tile : plan.tiles) corners += tile.sheet.corners.size();
+  for (const AtlasRect& rect : plan.rects) corners += rect.pass.corners.size();
   return corners / 3;
 }
 

@@ -79,8 +79,8 @@ RayLoop::RayLoop(const HeightField& field, int margin) : field_(field) {
 /// The map's middle is the origin: single precision is best there.
 Vec3 RayLoop::origin(int x, int y) const {
   const int width = field_.width(), height = field_.height();
-  const float at =
-      field_.heights.texel(texel_beyond(x, width, Beyond::wrap), texel_beyond(y, height, Beyond::wrap))[0];
+  const float at = field_.heights.texel(texel_beyond(x, width, WrapMode::wrap),
+                                        texel_beyond(y, height, WrapMode::wrap))[0];
   return {static_cast<float>(x - width / 2), static_cast<float>(height / 2 - y), at};
 }
 

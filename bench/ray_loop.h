@@ -2,8 +2,8 @@
 #pragma once
 
 #include "rays/embree_scene.h"
-#include "ssbump/heights/height_field.h"
 #include "ssbump/generate/hemisphere_rays.h"
+#include "ssbump/heights/height_field.h"
 #include "ssbump/map/weights.h"
 
 #include <array>

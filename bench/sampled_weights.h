@@ -1,9 +1,9 @@
 // bench/sampled_weights.h - the weights of some texels of a map: the truth, and how far others are off it.
 #pragma once
 
-#include "ssbump/heights/height_field.h"
-#include "ssbump/height_fields.h"
 #include "ssbump/generate/hemisphere_rays.h"
+#include "ssbump/height_fields.h"
+#include "ssbump/heights/height_field.h"
 #include "ssbump/heights/trace_heights.h"
 #include "ssbump/map/weights.h"
 

@@ -6,8 +6,8 @@
 #include "cobbles.h"
 #include "ray_loop.h"
 #include "sampled_weights.h"
-#include "ssbump/heights/bilateral.h"
 #include "ssbump/generate/generate.h"
+#include "ssbump/heights/bilateral.h"
 #include "ssbump/horizon/horizon_sweep.h"
 
 #include <algorithm>

@@ -65,7 +65,7 @@ json as_json(const WeightErrors& errors) {
   return {{"rmse", errors.rmse}, {"max", errors.largest}};
 }
 
-HeightField scaled(const SsbumpMap& map, Beyond border, float factor) {
+HeightField scaled(const SsbumpMap& map, WrapMode border, float factor) {
   HeightField field{map.heights, border, border};
   for (float& height : field.heights.data()) height *= factor;
   return field;
@@ -93,7 +93,7 @@ class Measurement {
       for (const SsbumpMap& map : maps_) across_seam(map);
     }
     if (arguments_.wants("horizons")) {
-      for (const Beyond border : {Beyond::wrap, Beyond::none})
+      for (const WrapMode border : {WrapMode::wrap, WrapMode::none})
         for (const SsbumpMap& map : maps_)
           for (const float factor : arguments_.factors) against_horizons(map, border, factor);
     }
@@ -119,18 +119,18 @@ class Measurement {
     report(row);
   }
 
-  void against_horizons(const SsbumpMap& map, Beyond border, float factor) const {
+  void against_horizons(const SsbumpMap& map, WrapMode border, float factor) const {
     const HeightField field = scaled(map, border, factor);
     const std::vector<Texel> texels = texels_of(field);
     measure({{"part", "horizons"},
              {"map", map.name},
-             {"border", border == Beyond::wrap ? "wrap" : "none"},
+             {"border", border == WrapMode::wrap ? "wrap" : "none"},
              {"factor", factor}},
             field, texels, by_horizons(field, texels, arguments_.azimuths));
   }
 
   void against_rays(const SsbumpMap& map) const {
-    const HeightField field = scaled(map, Beyond::wrap, 1);
+    const HeightField field = scaled(map, WrapMode::wrap, 1);
     const std::vector<Texel> texels = texels_of(field);
     const HemisphereRays rays(arguments_.rays, 1, kSeed);
     const std::vector<Channels> truth = by_rays(field, texels, rays.set(0));
@@ -155,10 +155,10 @@ class Measurement {
 
   /// Half the map on, and back again.
   void across_seam(const SsbumpMap& map) const {
-    const HeightField field = scaled(map, Beyond::wrap, 1);
+    const HeightField field = scaled(map, WrapMode::wrap, 1);
     const int width = field.width(), height = field.height();
     const auto over = [&](int x, int y) { return Texel{(x + width / 2) % width, (y + height / 2) % height}; };
-    const HeightField moved = field_of(width, height, Beyond::wrap, [&](int x, int y) {
+    const HeightField moved = field_of(width, height, WrapMode::wrap, [&](int x, int y) {
       return field.heights.texel(over(x, y).x, over(x, y).y)[0];
     });
     std::vector<Texel> here, there;

@@ -64,7 +64,8 @@ Channels weights_over(const std::vector<Imath::V2d>& slopes) {
 /// Heights by the distance from the middle.
 template <typename Function>
 HeightField surface(const Function& height) {
-  return field_of(kSide, kSide, Beyond::none, [&](int x, int y) { return height(x - kMiddle, y - kMiddle); });
+  return field_of(kSide, kSide, WrapMode::none,
+                  [&](int x, int y) { return height(x - kMiddle, y - kMiddle); });
 }
 
 }  // namespace

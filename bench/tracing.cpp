@@ -32,7 +32,7 @@ struct Arguments {
 };
 
 /// In the space of a TraceScene.
-std::vector<Surface> surfaces_of(const Exchange& scene) {
+std::vector<Surface> surfaces_of(const DiffuseScene& scene) {
   std::vector<Surface> surfaces;
   for (const SceneObject& object : scene.survey.objects) {
     const Mesh& mesh = scene.survey.mesh_of(object);
@@ -134,12 +134,12 @@ Arguments parse(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
-  const Exchange exchange = read_exchange(arguments.scene);
+  const DiffuseScene diffuse_scene = read_diffuse_scene(arguments.scene);
   const double start = steady_clock().now();
-  TraceScene scene(exchange, arguments.version);
+  TraceScene scene(diffuse_scene, arguments.version);
   const double built = steady_clock().now() - start;
 
-  const std::vector<Surface> surfaces = surfaces_of(exchange);
+  const std::vector<Surface> surfaces = surfaces_of(diffuse_scene);
   std::vector<GatherTarget> targets;
   for (const Surface& surface : surfaces) targets.push_back({&surface, 0, arguments.size, arguments.size});
   GatherOptions options;

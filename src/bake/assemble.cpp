@@ -13,8 +13,8 @@ namespace {
 /// A tile's picture addressed by texels of the whole lightmap, row 0 on top.
 class Window {
  public:
-  Window(const Tile& tile, const FloatImage& picture, int map_height)
-      : picture_(&picture), x0_(tile.x), y0_(map_height - tile.y - tile.size.height) {}
+  Window(const AtlasRect& rect, const FloatImage& picture, int map_height)
+      : picture_(&picture), x0_(rect.x), y0_(map_height - rect.y - rect.size.height) {}
 
   [[nodiscard]] int x0() const { return x0_; }
   [[nodiscard]] int y0() const { return y0_; }
@@ -104,11 +104,11 @@ class HorizonIdentity {
   /// v.b for each colour.
   [[nodiscard]] Vec3 moment(int x, int y, const SurfaceTriangle& face, const Vec3& b) const {
     const FaceAxes axes = face_axes(face.normal);
-    const auto sheet = [&](std::size_t m) {
+    const auto pass = [&](std::size_t m) {
       return moments_[m] ? moments_[m]->at(x, y).value_or(Vec3(0)) : Vec3(0);
     };
-    return (sheet(0) - sheet(1)) * b.dot(axes.t1) + (sheet(2) - sheet(3)) * b.dot(axes.t2) +
-           sheet(4) * b.dot(face.normal);
+    return (pass(0) - pass(1)) * b.dot(axes.t1) + (pass(2) - pass(3)) * b.dot(axes.t2) +
+           pass(4) * b.dot(face.normal);
   }
 
   static Vec3 nearest_above(const std::optional<Window>& above, int x, int y, const Vec3& otherwise) {
@@ -193,12 +193,12 @@ void fill_frames(const Surface& surface, TargetBakes& bakes) {
   fill_frames(TexelGeometry(surface, bakes.coverage.width(), bakes.coverage.height()), bakes);
 }
 
-bool needs_surface(const std::vector<const Tile*>& tiles) {
-  return std::any_of(tiles.begin(), tiles.end(),
-                     [](const Tile* tile) { return tile->sheet.role != Sheet::Role::basis; });
+bool needs_surface(const std::vector<const AtlasRect*>& rects) {
+  return std::any_of(rects.begin(), rects.end(),
+                     [](const AtlasRect* rect) { return rect->pass.role != ReceiverPass::Role::basis; });
 }
 
-TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles,
+TargetBakes assemble(const Target& target, const std::vector<const AtlasRect*>& rects,
                      const std::vector<FloatImage>& pictures, const std::vector<BasisDirection>& bases,
                      const Surface* surface, bool frames) {
   const int width = target.width, height = target.height;
@@ -210,17 +210,17 @@ TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles
   std::vector<std::optional<Window>> above(bases.size());
   std::vector<std::optional<Window>> below(bases.size());
   std::array<std::optional<Window>, 5> moments;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const Window window(*tiles[i], pictures[i], height);
-    const Sheet& sheet = tiles[i]->sheet;
-    if (sheet.role == Sheet::Role::moment) {
-      moments[sheet.basis] = window;
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    const Window window(*rects[i], pictures[i], height);
+    const ReceiverPass& pass = rects[i]->pass;
+    if (pass.role == ReceiverPass::Role::moment) {
+      moments[pass.basis] = window;
       continue;
     }
-    (sheet.role == Sheet::Role::basis ? above : below)[sheet.basis] = window;
+    (pass.role == ReceiverPass::Role::basis ? above : below)[pass.basis] = window;
     for_each_covered(window, [&](int x, int y, const Vec3& color) {
       result.coverage.texel(x, y)[0] = 1;
-      if (sheet.role == Sheet::Role::basis) store(result.bases[sheet.basis].radiance, x, y, color);
+      if (pass.role == ReceiverPass::Role::basis) store(result.bases[pass.basis].radiance, x, y, color);
     });
   }
 

@@ -13,7 +13,7 @@ namespace rnmbake {
 /// `surface` gives the geometry for the horizon identity (bake/receiver.h) and for the frames; it may be
 /// null where neither is needed. Throws Error(tasks_failed) if no texel at all was baked although the
 /// target covers some.
-[[nodiscard]] TargetBakes assemble(const Target& target, const std::vector<const Tile*>& tiles,
+[[nodiscard]] TargetBakes assemble(const Target& target, const std::vector<const AtlasRect*>& rects,
                                    const std::vector<FloatImage>& pictures,
                                    const std::vector<BasisDirection>& bases, const Surface* surface,
                                    bool frames);
@@ -22,6 +22,6 @@ namespace rnmbake {
 void fill_frames(const Surface& surface, TargetBakes& bakes);
 
 /// True where a target has tiles that only the identity can put together.
-[[nodiscard]] bool needs_surface(const std::vector<const Tile*>& tiles);
+[[nodiscard]] bool needs_surface(const std::vector<const AtlasRect*>& rects);
 
 }  // namespace rnmbake

@@ -13,7 +13,7 @@ class ShelfPacker {
  public:
   ShelfPacker(int width, std::int64_t max_pixels) : width_(width), max_pixels_(max_pixels) {}
 
-  Placement place(const TileSize& tile) {
+  Placement place(const RectSize& tile) {
     if (x_ + tile.width > width_) next_shelf();
     if (top_ > 0 && !fits(tile)) next_atlas();
     const Placement placed{atlases_.size(), x_, y_};
@@ -23,13 +23,13 @@ class ShelfPacker {
     return placed;
   }
 
-  std::vector<TileSize> finish() {
+  std::vector<RectSize> finish() {
     if (top_ > 0) next_atlas();
     return std::move(atlases_);
   }
 
  private:
-  [[nodiscard]] bool fits(const TileSize& tile) const {
+  [[nodiscard]] bool fits(const RectSize& tile) const {
     return std::int64_t(std::max(used_width_, x_ + tile.width)) * std::max(top_, y_ + tile.height) <=
            max_pixels_;
   }
@@ -42,17 +42,17 @@ class ShelfPacker {
     x_ = y_ = top_ = used_width_ = 0;
   }
 
-  std::vector<TileSize> atlases_;
+  std::vector<RectSize> atlases_;
   int width_;
   std::int64_t max_pixels_;
   int x_ = 0, y_ = 0, top_ = 0, used_width_ = 0;
 };
 
 /// The smallest power of two that makes the tiles about square, and never narrower than the widest.
-int choose_width(const std::vector<TileSize>& tiles, std::int64_t max_pixels) {
+int choose_width(const std::vector<RectSize>& tiles, std::int64_t max_pixels) {
   std::int64_t pixels = 0;
   int widest = 1;
-  for (const TileSize& tile : tiles) {
+  for (const RectSize& tile : tiles) {
     pixels += std::int64_t(tile.width) * tile.height;
     widest = std::max(widest, tile.width);
   }
@@ -64,7 +64,7 @@ int choose_width(const std::vector<TileSize>& tiles, std::int64_t max_pixels) {
 
 }  // namespace
 
-AtlasPlan pack(const std::vector<TileSize>& tiles, std::int64_t max_pixels) {
+AtlasPlan pack(const std::vector<RectSize>& tiles, std::int64_t max_pixels) {
   std::vector<std::size_t> order(tiles.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),

@@ -7,7 +7,7 @@
 
 namespace rnmbake {
 
-struct TileSize {
+struct RectSize {
   int width = 0, height = 0;  // texels
 };
 
@@ -17,12 +17,12 @@ struct Placement {
 };
 
 struct AtlasPlan {
-  std::vector<TileSize> atlases;
+  std::vector<RectSize> atlases;
   std::vector<Placement> placements;  // [tiles], in the order given
 };
 
 /// Shelf packing, tallest first. No atlas has more than `max_pixels` unless a single tile alone does; a
 /// single tile gets an atlas of its own size.
-[[nodiscard]] AtlasPlan pack(const std::vector<TileSize>& tiles, std::int64_t max_pixels);
+[[nodiscard]] AtlasPlan pack(const std::vector<RectSize>& tiles, std::int64_t max_pixels);
 
 }  // namespace rnmbake

@@ -169,7 +169,7 @@ Fence fence_along(const Rim& rim, double diagonal) {
 
 }  // namespace
 
-std::vector<LightBall> light_balls(const Survey& survey) {
+std::vector<LightBall> light_balls(const SceneSurvey& survey) {
   std::vector<LightBall> balls;
   for (const LightInfo& light : survey.lights) balls.push_back(ball_of(light));
   return balls;

@@ -29,7 +29,7 @@ struct LightBall {
   double radius = 0;     // of a sun: sine of half its angle
 };
 
-[[nodiscard]] std::vector<LightBall> light_balls(const Survey& survey);
+[[nodiscard]] std::vector<LightBall> light_balls(const SceneSurvey& survey);
 
 /// Along the rims of faces over which such a light would light more than a hundredth of a texel. `map`:
 /// texels of the lightmap along u and v.

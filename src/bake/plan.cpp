@@ -9,9 +9,9 @@ namespace rnmbake {
 namespace {
 
 /// Crops to whole texels around the UVs, one texel more on each side against rounding.
-Tile crop(std::size_t target_index, const Target& target, Sheet sheet) {
+AtlasRect crop(std::size_t target_index, const Target& target, ReceiverPass pass) {
   Vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-  for (const ReceiverCorner& corner : sheet.corners) {
+  for (const ReceiverCorner& corner : pass.corners) {
     for (int axis = 0; axis < 2; ++axis) {
       low[axis] = std::min(low[axis], corner.uv[axis]);
       high[axis] = std::max(high[axis], corner.uv[axis]);
@@ -23,50 +23,51 @@ Tile crop(std::size_t target_index, const Target& target, Sheet sheet) {
   const auto above = [](float uv, int side) {
     return std::clamp(int(std::ceil(uv * float(side))) + 1, 1, side);
   };
-  Tile tile{target_index, std::move(sheet), below(low.x, target.width), below(low.y, target.height), {}};
-  tile.size = {above(high.x, target.width) - tile.x, above(high.y, target.height) - tile.y};
-  return tile;
+  AtlasRect rect{target_index, std::move(pass), below(low.x, target.width), below(low.y, target.height), {}};
+  rect.size = {above(high.x, target.width) - rect.x, above(high.y, target.height) - rect.y};
+  return rect;
 }
 
 }  // namespace
 
-void add_receiver_units(Plan& plan, std::size_t target_index, const Target& target, Sheets sheets,
+void add_receiver_tasks(Plan& plan, std::size_t target_index, const Target& target, ReceiverPasses passes,
                         const std::vector<BasisDirection>& bases, const CyclesSettings& cycles) {
-  const std::size_t first = plan.units.size();
+  const std::size_t first = plan.tasks.size();
   for (std::size_t b = 0; b < bases.size(); ++b)
-    plan.units.push_back({target_index, bases[b].name, b, {}, cycles});
-  Unit horizon{target_index, "horizon", 0, {}, cycles};
-  for (Sheet& sheet : sheets.sheets) {
-    if (sheet.corners.empty()) continue;
-    Unit& unit = sheet.role == Sheet::Role::moment ? horizon : plan.units[first + sheet.basis];
-    unit.tiles.push_back(plan.tiles.size());
-    plan.tiles.push_back(crop(target_index, target, std::move(sheet)));
+    plan.tasks.push_back({target_index, bases[b].name, b, {}, cycles});
+  BakeTask horizon{target_index, "horizon", 0, {}, cycles};
+  for (ReceiverPass& pass : passes.passes) {
+    if (pass.corners.empty()) continue;
+    BakeTask& task = pass.role == ReceiverPass::Role::moment ? horizon : plan.tasks[first + pass.basis];
+    task.rects.push_back(plan.rects.size());
+    plan.rects.push_back(crop(target_index, target, std::move(pass)));
   }
-  if (!horizon.tiles.empty()) plan.units.push_back(std::move(horizon));
+  if (!horizon.rects.empty()) plan.tasks.push_back(std::move(horizon));
 }
 
-void add_object_units(Plan& plan, std::size_t target_index, const Target& target,
+void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target,
                       const std::vector<BasisDirection>& bases, const CyclesSettings& cycles) {
   for (std::size_t b = 0; b < bases.size(); ++b) {
-    plan.units.push_back({target_index, bases[b].name, b, {plan.tiles.size()}, cycles});
-    plan.tiles.push_back({target_index, {Sheet::Role::basis, b, {}}, 0, 0, {target.width, target.height}});
+    plan.tasks.push_back({target_index, bases[b].name, b, {plan.rects.size()}, cycles});
+    plan.rects.push_back(
+        {target_index, {ReceiverPass::Role::basis, b, {}}, 0, 0, {target.width, target.height}});
   }
 }
 
-void group_units(Plan& plan, BakingSettings::Dispatch mode) {
+void group_tasks(Plan& plan, BakingSettings::Dispatch mode) {
   using Mode = BakingSettings::Dispatch;
-  const auto belongs = [&](const Dispatch& dispatch, const Unit& unit) {
-    const Unit& first = plan.units[dispatch.units.front()];
-    if (mode == Mode::basis || !(first.cycles == unit.cycles)) return false;
-    return mode == Mode::scene || first.target == unit.target;
+  const auto belongs = [&](const Batch& batch, const BakeTask& task) {
+    const BakeTask& first = plan.tasks[batch.tasks.front()];
+    if (mode == Mode::basis || !(first.cycles == task.cycles)) return false;
+    return mode == Mode::scene || first.target == task.target;
   };
-  for (std::size_t u = 0; u < plan.units.size(); ++u) {
-    const auto found = std::find_if(plan.dispatches.begin(), plan.dispatches.end(),
-                                    [&](const Dispatch& d) { return belongs(d, plan.units[u]); });
-    if (found != plan.dispatches.end()) {
-      found->units.push_back(u);
+  for (std::size_t u = 0; u < plan.tasks.size(); ++u) {
+    const auto found = std::find_if(plan.batches.begin(), plan.batches.end(),
+                                    [&](const Batch& d) { return belongs(d, plan.tasks[u]); });
+    if (found != plan.batches.end()) {
+      found->tasks.push_back(u);
     } else {
-      plan.dispatches.push_back({{u}});
+      plan.batches.push_back({{u}});
     }
   }
 }
@@ -77,17 +78,17 @@ BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings) {
                                                              : BakingSettings::Dispatch::object;
 }
 
-std::vector<Dispatch> split(const Dispatch& dispatch, const Plan& plan) {
-  const auto& units = dispatch.units;
-  if (units.size() < 2) return {dispatch};
-  std::size_t middle = units.size() / 2;
-  const auto target_of = [&](std::size_t i) { return plan.units[units[i]].target; };
-  if (target_of(0) != target_of(units.size() - 1)) {
+std::vector<Batch> split(const Batch& batch, const Plan& plan) {
+  const auto& tasks = batch.tasks;
+  if (tasks.size() < 2) return {batch};
+  std::size_t middle = tasks.size() / 2;
+  const auto target_of = [&](std::size_t i) { return plan.tasks[tasks[i]].target; };
+  if (target_of(0) != target_of(tasks.size() - 1)) {
     while (middle > 1 && target_of(middle) == target_of(middle - 1)) --middle;
-    while (middle + 1 < units.size() && target_of(middle) == target_of(middle - 1)) ++middle;
+    while (middle + 1 < tasks.size() && target_of(middle) == target_of(middle - 1)) ++middle;
   }
-  const auto cut = units.begin() + static_cast<std::ptrdiff_t>(middle);
-  return {Dispatch{{units.begin(), cut}}, Dispatch{{cut, units.end()}}};
+  const auto cut = tasks.begin() + static_cast<std::ptrdiff_t>(middle);
+  return {Batch{{tasks.begin(), cut}}, Batch{{cut, tasks.end()}}};
 }
 
 std::int64_t atlas_pixels(std::int64_t atlas_limit, std::int64_t memory, std::int64_t scene_triangles,

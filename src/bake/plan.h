@@ -25,51 +25,51 @@ struct CyclesSettings {
 };
 
 /// A sheet cropped to the texels that it covers. Texel rows count from the bottom.
-struct Tile {
+struct AtlasRect {
   std::size_t target = 0;
-  Sheet sheet;
+  ReceiverPass pass;
   int x = 0, y = 0;  // lower left texel within the target's lightmap
-  TileSize size;
+  RectSize size;
 };
 
 /// The smallest piece that can be baked alone: one basis of one target, with all that it needs but `moments`,
 /// which are a unit of their own since every basis shares them.
-struct Unit {
+struct BakeTask {
   std::size_t target = 0;
   std::string name;                // of the basis, or "horizon"
   std::size_t basis = 0;           // index into the bases
-  std::vector<std::size_t> tiles;  // indices into Plan::tiles
+  std::vector<std::size_t> rects;  // indices into Plan::tiles
   CyclesSettings cycles;
 };
 
 /// One launch of Blender.
-struct Dispatch {
-  std::vector<std::size_t> units;
+struct Batch {
+  std::vector<std::size_t> tasks;
 };
 
 struct Plan {
-  std::vector<Tile> tiles;
+  std::vector<AtlasRect> rects;
   std::vector<std::vector<Fence>> fences;  // [targets], or none at all
-  std::vector<Unit> units;
-  std::vector<Dispatch> dispatches;
+  std::vector<BakeTask> tasks;
+  std::vector<Batch> batches;
 };
 
 /// Crops the sheets of one target and adds them as units. Empty sheets are left out.
-void add_receiver_units(Plan& plan, std::size_t target_index, const Target& target, Sheets sheets,
+void add_receiver_tasks(Plan& plan, std::size_t target_index, const Target& target, ReceiverPasses passes,
                         const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
 
 /// Units without receivers, for flat-normal-map: Blender bakes the object itself. One whole tile each.
-void add_object_units(Plan& plan, std::size_t target_index, const Target& target,
+void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target,
                       const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
 
 /// Groups units into launches: one for each unit, each target, or all that share their Cycles settings.
-void group_units(Plan& plan, BakingSettings::Dispatch mode);
+void group_tasks(Plan& plan, BakingSettings::Dispatch mode);
 
 /// What `automatic` means for a recipe: joined for receivers, a launch for each object otherwise.
 [[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
 
 /// The two halves of a dispatch that failed; at a boundary between targets where there is one.
-[[nodiscard]] std::vector<Dispatch> split(const Dispatch& dispatch, const Plan& plan);
+[[nodiscard]] std::vector<Batch> split(const Batch& batch, const Plan& plan);
 
 /// Bytes that Blender's peak grows by with one pixel of an atlas, one triangle of the scene and one triangle
 /// of a receiver, whose corners share nothing (measured, docs/performance.md; rounded up).

@@ -91,16 +91,17 @@ class SheetMaker {
     if (horizon_ == Horizon::identity) add_moments(triangle, whole);
   }
 
-  Sheets finish() {
-    Sheets result;
+  ReceiverPasses finish() {
+    ReceiverPasses result;
     for (std::size_t b = 0; b < bases_.size(); ++b) {
-      result.sheets.push_back({Sheet::Role::basis, b, std::move(above_[b])});
+      result.passes.push_back({ReceiverPass::Role::basis, b, std::move(above_[b])});
     }
     for (std::size_t b = 0; b < bases_.size(); ++b) {
-      if (!below_[b].empty()) result.sheets.push_back({Sheet::Role::below, b, std::move(below_[b])});
+      if (!below_[b].empty()) result.passes.push_back({ReceiverPass::Role::below, b, std::move(below_[b])});
     }
     for (std::size_t m = 0; m < moments_.size(); ++m) {
-      if (!moments_[m].empty()) result.sheets.push_back({Sheet::Role::moment, m, std::move(moments_[m])});
+      if (!moments_[m].empty())
+        result.passes.push_back({ReceiverPass::Role::moment, m, std::move(moments_[m])});
     }
     result.counts = counts_;
     return result;
@@ -171,8 +172,8 @@ Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {
   return along.normalized() * std::sqrt(1 - sine * sine) + face_normal * sine;
 }
 
-Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
-                   ObjectSettings::Horizon horizon, const Vec2& map) {
+ReceiverPasses make_receiver_passes(const Surface& surface, const std::vector<BasisDirection>& bases,
+                                    ObjectSettings::Horizon horizon, const Vec2& map) {
   SheetMaker maker(bases, horizon, map);
   maker.reserve(surface.triangles.size());
   for (const SurfaceTriangle& triangle : surface.triangles) maker.add(triangle);

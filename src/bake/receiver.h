@@ -11,8 +11,8 @@
 #pragma once
 
 #include "base/math.h"
-#include "encoding/basis_set.h"
 #include "config/bake_settings.h"
+#include "encoding/basis_set.h"
 #include "scene/surface.h"
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct ReceiverCorner {
 };
 
 /// One picture to bake of a target.
-struct Sheet {
+struct ReceiverPass {
   enum class Role { basis, below, moment };
   Role role = Role::basis;
   std::size_t basis = 0;  // index into the list of bases; for a moment: 0..4 = t1, -t1, t2, -t2, face normal
@@ -42,8 +42,9 @@ struct HorizonCounts {
   std::size_t triangles_below = 0;  // with such a corner for any basis
 };
 
-struct Sheets {
-  std::vector<Sheet> sheets;  // one with role basis for each basis, in order; then below and moment sheets
+struct ReceiverPasses {
+  std::vector<ReceiverPass>
+      passes;  // one with role basis for each basis, in order; then below and moment sheets
   HorizonCounts counts;
 };
 
@@ -61,7 +62,9 @@ struct FaceAxes {
 [[nodiscard]] Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine);
 
 /// `map`: texels of the lightmap along u and v; cut triangles are divided no finer than they need be for it.
-[[nodiscard]] Sheets make_sheets(const Surface& surface, const std::vector<BasisDirection>& bases,
-                                 ObjectSettings::Horizon horizon, const Vec2& map = Vec2(8192));
+[[nodiscard]] ReceiverPasses make_receiver_passes(const Surface& surface,
+                                                  const std::vector<BasisDirection>& bases,
+                                                  ObjectSettings::Horizon horizon,
+                                                  const Vec2& map = Vec2(8192));
 
 }  // namespace rnmbake

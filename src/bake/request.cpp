@@ -56,15 +56,15 @@ std::string pixels_name(std::size_t picture) {
 /// Goes through the tiles once for each, so that no second copy of them is held.
 class JoinedCorners {
  public:
-  void add(const Tile& tile, const Target& target, const Placement& place) {
-    parts_.push_back({&tile.sheet.corners,
+  void add(const AtlasRect& rect, const Target& target, const Placement& place) {
+    parts_.push_back({&rect.pass.corners,
                       Vec2(static_cast<float>(target.width), static_cast<float>(target.height)),
-                      Vec2(static_cast<float>(place.x - tile.x), static_cast<float>(place.y - tile.y))});
-    count_ += tile.sheet.corners.size();
+                      Vec2(static_cast<float>(place.x - rect.x), static_cast<float>(place.y - rect.y))});
+    count_ += rect.pass.corners.size();
   }
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  void write(ArrayFile& out, const TileSize& atlas) const {
+  void write(ArrayFile& out, const RectSize& atlas) const {
     const Vec2 whole(static_cast<float>(atlas.width), static_cast<float>(atlas.height));
     write_each<Vec3>(out, [](const Part&, const ReceiverCorner& corner) { return corner.position; });
     write_each<Vec3>(out, [](const Part&, const ReceiverCorner& corner) { return corner.normal; });
@@ -93,41 +93,41 @@ class JoinedCorners {
   std::size_t count_ = 0;
 };
 
-std::vector<std::size_t> tiles_of(const Dispatch& dispatch, const Plan& plan) {
-  std::vector<std::size_t> tiles;
-  for (const std::size_t unit : dispatch.units) {
-    const auto& more = plan.units[unit].tiles;
-    tiles.insert(tiles.end(), more.begin(), more.end());
+std::vector<std::size_t> rects_of(const Batch& batch, const Plan& plan) {
+  std::vector<std::size_t> rects;
+  for (const std::size_t task : batch.tasks) {
+    const auto& more = plan.tasks[task].rects;
+    rects.insert(rects.end(), more.begin(), more.end());
   }
-  return tiles;
+  return rects;
 }
 
-json base_request(const Dispatch& dispatch, const Plan& plan, const char* recipe) {
-  return {{"recipe", recipe}, {"cycles", to_json(plan.units[dispatch.units.front()].cycles)}};
+json base_request(const Batch& batch, const Plan& plan, const char* recipe) {
+  return {{"recipe", recipe}, {"cycles", to_json(plan.tasks[batch.tasks.front()].cycles)}};
 }
 
 /// Of all targets of the dispatch, where it has to care for them.
-std::set<std::string> glowing_materials(const BakeContext& context, const Dispatch& dispatch) {
+std::set<std::string> glowing_materials(const BakeContext& context, const Batch& batch) {
   std::set<std::string> names;
-  for (const std::size_t u : dispatch.units) {
-    const Unit& unit = context.plan.units[u];
-    const auto& glowing = context.targets[unit.target].glowing;
-    if (unit.cycles.glowing) names.insert(glowing.begin(), glowing.end());
+  for (const std::size_t u : batch.tasks) {
+    const BakeTask& task = context.plan.tasks[u];
+    const auto& glowing = context.targets[task.target].glowing;
+    if (task.cycles.glowing) names.insert(glowing.begin(), glowing.end());
   }
   return names;
 }
 
 /// Writes one atlas; receivers that share a light-linking group are one mesh.
-json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::size_t atlas,
+json write_atlas(const BakeContext& context, const BatchLayout& layout, std::size_t atlas,
                  const fs::path& folder) {
-  const TileSize size = layout.atlas.atlases[atlas];
+  const RectSize size = layout.atlas.atlases[atlas];
   std::map<std::string, std::vector<std::size_t>> by_group;  // light group -> positions in layout.tiles
   std::int64_t texels = 0;
-  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
+  for (std::size_t i = 0; i < layout.rects.size(); ++i) {
     if (layout.atlas.placements[i].atlas != atlas) continue;
-    const Tile& tile = context.plan.tiles[layout.tiles[i]];
-    by_group[context.survey.objects[context.targets[tile.target].object].light_group].push_back(i);
-    texels += std::int64_t(tile.size.width) * tile.size.height;
+    const AtlasRect& rect = context.plan.rects[layout.rects[i]];
+    by_group[context.survey.objects[context.targets[rect.target].object].light_group].push_back(i);
+    texels += std::int64_t(rect.size.width) * rect.size.height;
   }
   const std::string arrays = "receivers" + std::to_string(atlas) + ".f32";
   ArrayFile out(folder / arrays);
@@ -135,11 +135,11 @@ json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::
   for (const auto& [group, members] : by_group) {
     JoinedCorners joined;
     for (const std::size_t i : members) {
-      const Tile& tile = context.plan.tiles[layout.tiles[i]];
-      joined.add(tile, context.targets[tile.target], layout.atlas.placements[i]);
+      const AtlasRect& rect = context.plan.rects[layout.rects[i]];
+      joined.add(rect, context.targets[rect.target], layout.atlas.placements[i]);
     }
     joined.write(out, size);
-    const Tile& first = context.plan.tiles[layout.tiles[members.front()]];
+    const AtlasRect& first = context.plan.rects[layout.rects[members.front()]];
     const std::string& like = context.survey.objects[context.targets[first.target].object].name;
     groups.push_back({{"corners", joined.count()}, {"like", group.empty() ? "" : like}});
   }
@@ -149,10 +149,10 @@ json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::
 }
 
 /// The fences of all targets of a dispatch: their corners, then `up` once for each corner.
-json write_fences(const Dispatch& dispatch, const Plan& plan, const fs::path& folder) {
+json write_fences(const Batch& batch, const Plan& plan, const fs::path& folder) {
   std::set<std::size_t> targets;
   if (!plan.fences.empty()) {
-    for (const std::size_t unit : dispatch.units) targets.insert(plan.units[unit].target);
+    for (const std::size_t task : batch.tasks) targets.insert(plan.tasks[task].target);
   }
   std::vector<Vec3> corners, ups;
   for (const std::size_t target : targets) {
@@ -206,17 +206,17 @@ json describe_target(const BakeContext& context, std::size_t index, const fs::pa
 
 /// Blender's bottom-up rows become top-down ones.
 FloatImage cut(const std::vector<float>& atlas, int atlas_width, const Placement& place,
-               const TileSize& size) {
-  FloatImage tile(size.width, size.height, 4);
+               const RectSize& size) {
+  FloatImage rect(size.width, size.height, 4);
   const std::size_t row = std::size_t(size.width) * 4;
   for (int y = 0; y < size.height; ++y) {
     const auto* from = &atlas[(std::size_t(place.y + y) * atlas_width + place.x) * 4];
-    std::copy_n(from, row, &tile.data()[std::size_t(size.height - 1 - y) * row]);
+    std::copy_n(from, row, &rect.data()[std::size_t(size.height - 1 - y) * row]);
   }
-  return tile;
+  return rect;
 }
 
-std::vector<float> read_pixels(const fs::path& file, const TileSize& size) {
+std::vector<float> read_pixels(const fs::path& file, const RectSize& size) {
   std::vector<float> pixels(std::size_t(size.width) * size.height * 4);
   std::error_code error;
   std::ifstream in;
@@ -242,14 +242,13 @@ nlohmann::json to_json(const CyclesSettings& settings) {
           {"device", settings.device}};
 }
 
-BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatch, std::int64_t max_pixels,
+BakeRequest receiver_request(const BakeContext& context, const Batch& batch, std::int64_t max_pixels,
                              const fs::path& folder) {
-  BakeRequest request{base_request(dispatch, context.plan, "receiver"),
-                      {tiles_of(dispatch, context.plan), {}}};
-  request.json["left_to_chance"] = glowing_materials(context, dispatch);
-  request.json["fences"] = write_fences(dispatch, context.plan, folder);
-  std::vector<TileSize> sizes;
-  for (const std::size_t tile : request.layout.tiles) sizes.push_back(context.plan.tiles[tile].size);
+  BakeRequest request{base_request(batch, context.plan, "receiver"), {rects_of(batch, context.plan), {}}};
+  request.json["left_to_chance"] = glowing_materials(context, batch);
+  request.json["fences"] = write_fences(batch, context.plan, folder);
+  std::vector<RectSize> sizes;
+  for (const std::size_t rect : request.layout.rects) sizes.push_back(context.plan.rects[rect].size);
   request.layout.atlas = pack(sizes, max_pixels);
   request.json["atlases"] = json::array();
   for (std::size_t atlas = 0; atlas < request.layout.atlas.atlases.size(); ++atlas) {
@@ -258,20 +257,20 @@ BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatc
   return request;
 }
 
-BakeRequest object_request(const BakeContext& context, const Dispatch& dispatch, bool correct_bump,
+BakeRequest object_request(const BakeContext& context, const Batch& batch, bool correct_bump,
                            const fs::path& folder) {
-  BakeRequest request{base_request(dispatch, context.plan, "flat-normal-map"),
-                      {tiles_of(dispatch, context.plan), {}}};
+  BakeRequest request{base_request(batch, context.plan, "flat-normal-map"),
+                      {rects_of(batch, context.plan), {}}};
   request.json["correct_bump"] = correct_bump;
   std::map<std::size_t, json> described;
-  for (std::size_t i = 0; i < request.layout.tiles.size(); ++i) {
-    const Tile& tile = context.plan.tiles[request.layout.tiles[i]];
-    request.layout.atlas.atlases.push_back(tile.size);  // each bake is a picture of its own
+  for (std::size_t i = 0; i < request.layout.rects.size(); ++i) {
+    const AtlasRect& rect = context.plan.rects[request.layout.rects[i]];
+    request.layout.atlas.atlases.push_back(rect.size);  // each bake is a picture of its own
     request.layout.atlas.placements.push_back({i, 0, 0});
-    auto [entry, is_new] = described.try_emplace(tile.target);
-    if (is_new) entry->second = describe_target(context, tile.target, folder);
-    const BasisDirection& basis = context.bases[tile.sheet.basis];
-    const Vec3 direction = in_frame(basis.direction, context.targets[tile.target]);
+    auto [entry, is_new] = described.try_emplace(rect.target);
+    if (is_new) entry->second = describe_target(context, rect.target, folder);
+    const BasisDirection& basis = context.bases[rect.pass.basis];
+    const Vec3 direction = in_frame(basis.direction, context.targets[rect.target]);
     entry->second["bakes"].push_back({{"basis", basis.name},
                                       {"direction", {direction.x, direction.y, direction.z}},
                                       {"pixels", pixels_name(i)}});
@@ -281,17 +280,17 @@ BakeRequest object_request(const BakeContext& context, const Dispatch& dispatch,
   return request;
 }
 
-std::vector<FloatImage> read_tiles(const DispatchLayout& layout, const Plan& plan, const fs::path& folder) {
-  std::vector<FloatImage> tiles(layout.tiles.size());
+std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan, const fs::path& folder) {
+  std::vector<FloatImage> rects(layout.rects.size());
   for (std::size_t atlas = 0; atlas < layout.atlas.atlases.size(); ++atlas) {
-    const TileSize size = layout.atlas.atlases[atlas];
+    const RectSize size = layout.atlas.atlases[atlas];
     const std::vector<float> pixels = read_pixels(folder / pixels_name(atlas), size);
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
+    for (std::size_t i = 0; i < rects.size(); ++i) {
       const Placement& place = layout.atlas.placements[i];
-      if (place.atlas == atlas) tiles[i] = cut(pixels, size.width, place, plan.tiles[layout.tiles[i]].size);
+      if (place.atlas == atlas) rects[i] = cut(pixels, size.width, place, plan.rects[layout.rects[i]].size);
     }
   }
-  return tiles;
+  return rects;
 }
 
 }  // namespace rnmbake

@@ -15,14 +15,14 @@
 namespace rnmbake {
 
 /// Where each tile of a dispatch was put: which picture, and at which texel.
-struct DispatchLayout {
-  std::vector<std::size_t> tiles;  // indices into Plan::tiles
+struct BatchLayout {
+  std::vector<std::size_t> rects;  // indices into Plan::tiles
   AtlasPlan atlas;                 // placements in the order of `tiles`
 };
 
 /// Everything that a request is made from.
 struct BakeContext {
-  const Survey& survey;
+  const SceneSurvey& survey;
   const std::vector<Target>& targets;
   const std::vector<BasisDirection>& bases;
   const Plan& plan;
@@ -30,23 +30,23 @@ struct BakeContext {
 
 struct BakeRequest {
   nlohmann::json json;
-  DispatchLayout layout;
+  BatchLayout layout;
 };
 
 /// Receivers of all units, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
 /// positions, normals, UVs of each group of corners) into `folder`.
-[[nodiscard]] BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatch,
+[[nodiscard]] BakeRequest receiver_request(const BakeContext& context, const Batch& batch,
                                            std::int64_t max_pixels, const std::filesystem::path& folder);
 
 /// The published recipe: objects with their own materials. Writes unwrapped UVs and part lists into `folder`.
-[[nodiscard]] BakeRequest object_request(const BakeContext& context, const Dispatch& dispatch,
-                                         bool correct_bump, const std::filesystem::path& folder);
+[[nodiscard]] BakeRequest object_request(const BakeContext& context, const Batch& batch, bool correct_bump,
+                                         const std::filesystem::path& folder);
 
 [[nodiscard]] nlohmann::json to_json(const CyclesSettings& settings);
 
 /// The tiles (RGBA, row 0 on top, in the order of layout.tiles) of a finished dispatch.
 /// Throws Error(tasks_failed) where a file is not as long as its picture.
-[[nodiscard]] std::vector<FloatImage> read_tiles(const DispatchLayout& layout, const Plan& plan,
+[[nodiscard]] std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan,
                                                  const std::filesystem::path& folder);
 
 }  // namespace rnmbake

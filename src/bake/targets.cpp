@@ -139,7 +139,7 @@ int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
   return std::clamp(wanted, lowest, std::max(lowest, settings.max_resolution / 4 * 4));
 }
 
-std::vector<std::string> glowing_materials(const Survey& survey, std::size_t object,
+std::vector<std::string> glowing_materials(const SceneSurvey& survey, std::size_t object,
                                            const std::vector<std::uint32_t>& triangles) {
   const SceneObject& it = survey.objects[object];
   const Mesh& mesh = survey.mesh_of(it);

@@ -56,13 +56,13 @@ struct Part {
                                            ObjectSettings::Split mode);
 
 /// The emitting materials of these triangles, if more than half of their area emits; else none.
-[[nodiscard]] std::vector<std::string> glowing_materials(const Survey& survey, std::size_t object,
+[[nodiscard]] std::vector<std::string> glowing_materials(const SceneSurvey& survey, std::size_t object,
                                                          const std::vector<std::uint32_t>& triangles);
 
 using Uvs = std::shared_ptr<const std::vector<Vec2>>;  // one for each loop
 
 struct Target {
-  std::size_t object = 0;  // index into Survey::objects
+  std::size_t object = 0;  // index into SceneSurvey::objects
   std::string key;         // the object's key, with "/part" where it was split
   Part part;
   Uvs uv, tangent_uv;

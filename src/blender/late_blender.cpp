@@ -1,6 +1,7 @@
 #include "blender/late_blender.h"
 
 #include "blender/find.h"
+#include "blender/probe.h"
 
 #include <optional>
 

@@ -5,6 +5,7 @@
 #include "blender/blend_header.h"
 #include "blender/launch_watch.h"
 #include "blender/outcome.h"
+#include "blender/probe.h"
 #include "process/run.h"
 #include "process/tree.h"
 

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/names.h"
 #include "base/version.h"
+#include "blender/blender_session.h"
 #include "cli/bake.h"
 #include "cli/compare.h"
 #include "cli/decode.h"
@@ -11,13 +12,12 @@
 #include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
-#include "cli/ssbump/nms.h"
 #include "cli/reference.h"
 #include "cli/render.h"
+#include "cli/ssbump/nms.h"
 #include "cli/ssbump/ssbump.h"
 #include "cli/validate.h"
 #include "config/variables.h"
-#include "blender/blender_session.h"
 
 #include <algorithm>
 #include <array>

@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "blender/late_blender.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/bake/bake_run.h"
-#include "blender/late_blender.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
@@ -37,7 +37,7 @@ int bake(const ResolvedConfig& config) {
   (void)blender.info();  // a missing Blender is said before anything is written
   Workspace workspace(config, blender);
   prepare_output(config.globals.output);
-  const SurveyedScene scene = survey_scene(workspace);
+  const SurveyResult scene = survey_scene(workspace);
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(workspace, {"bake", bases}, scene.survey, list.targets);

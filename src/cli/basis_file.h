@@ -1,8 +1,8 @@
 // cli/basis_file.h - the directions to bake for, out of RNM's or of a list in TOML.
 #pragma once
 
-#include "encoding/basis_set.h"
 #include "config/bake_settings.h"
+#include "encoding/basis_set.h"
 
 #include <filesystem>
 #include <string>

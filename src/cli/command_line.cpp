@@ -14,14 +14,14 @@ std::string text_of(const SettingValue& value) {
   return fmt::format("{}", std::get<double>(value));
 }
 
-std::string flag_of(const Given& given) {
+std::string flag_of(const SettingOverride& given) {
   if (const auto* on = std::get_if<bool>(&given.value))
     return *on ? given.setting->flag() : fmt::format("--no-{}", given.setting->flag().substr(2));
   return fmt::format("{} {}", given.setting->flag(), shell_word(text_of(given.value)));
 }
 
 /// Whether somebody typed it: what one setting turns off in another has that one's place.
-bool was_typed(const Given& given) {
+bool was_typed(const SettingOverride& given) {
   if (given.source == SettingSource::environment) return true;
   return given.source == SettingSource::flag &&
          given.where.find(given.setting->flag().substr(2)) != std::string::npos;
@@ -29,7 +29,7 @@ bool was_typed(const Given& given) {
 
 /// "hall.toml:12" -> "hall.toml".
 std::string project_of(const ResolvedConfig& config) {
-  for (const Given& given : config.values()) {
+  for (const SettingOverride& given : config.values()) {
     if (given.source == SettingSource::project) return given.where.substr(0, given.where.rfind(':'));
   }
   return "";
@@ -52,7 +52,7 @@ std::string command_line(const std::string& command, const ResolvedConfig& confi
   const std::string project = project_of(config);
   std::string line = fmt::format("rnmbake {} {}", command,
                                  shell_word(project.empty() ? config.globals.scene.file.string() : project));
-  for (const Given& given : config.values()) {
+  for (const SettingOverride& given : config.values()) {
     const bool is_scene = given.setting->key == "file" && project.empty();
     if (was_typed(given) && !is_scene) line += fmt::format(" {}", flag_of(given));
   }

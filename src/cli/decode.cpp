@@ -91,8 +91,8 @@ void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
 FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
   const DecodeVariant variant = variant_of(options);
   if (!options.ssbump.empty()) {
-    const SsbumpTold told{scale_named(options.ssbump_scale), handed_named(options.ssbump_handed), {}};
-    return decode_ssbump(std::move(lightmap), read_ssbump(options.ssbump, told), variant);
+    const SsbumpHints hints{scale_named(options.ssbump_scale), handed_named(options.ssbump_handed), {}};
+    return decode_ssbump(std::move(lightmap), read_ssbump(options.ssbump, hints), variant);
   }
   if (options.normal_map.empty()) {
     const auto& n = options.normal_vector;

@@ -4,9 +4,9 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "blender/late_blender.h"
 #include "cli/settings_flags.h"
 #include "pipeline/scene/export_scene.h"
-#include "blender/late_blender.h"
 #include "process/stop.h"
 
 #include <algorithm>
@@ -35,20 +35,20 @@ fs::path choose_file(const BakeSettings& settings) {
   const fs::path& given = settings.output.dir;
   if (given.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o FILE.rnmscene, or a folder");
   if (is_exchange(given)) return given;
-  return given / settings.scene.file.stem().concat(exchange_ending);
+  return given / settings.scene.file.stem().concat(diffuse_scene_ending);
 }
 
-std::size_t triangles_of(const Survey& survey) {
+std::size_t triangles_of(const SceneSurvey& survey) {
   std::size_t sum = 0;
   for (const SceneObject& object : survey.objects) sum += survey.mesh_of(object).triangles();
   return sum;
 }
 
-std::string world_text(const Exchange& scene) {
+std::string world_text(const DiffuseScene& scene) {
   const World& world = scene.world;
   if (world.picture < 0)
     return fmt::format("({:g}, {:g}, {:g})", world.radiance.x, world.radiance.y, world.radiance.z);
-  const Picture& picture = scene.pictures[static_cast<std::size_t>(world.picture)];
+  const Texture& picture = scene.pictures[static_cast<std::size_t>(world.picture)];
   return fmt::format("{} x {} texels", picture.width, picture.height);
 }
 
@@ -57,9 +57,9 @@ std::size_t unwrapped(const TargetList& list) {
                                                 [](const Target& target) { return target.unwrapped; }));
 }
 
-void write_text(const ExportedScene& exported, const fs::path& file, std::ostream& out) {
-  const Exchange& scene = exported.exchange;
-  const Survey& survey = scene.survey;
+void write_text(const ExportResult& exported, const fs::path& file, std::ostream& out) {
+  const DiffuseScene& scene = exported.diffuse_scene;
+  const SceneSurvey& survey = scene.survey;
   const auto line = [&](const char* what, const std::string& said) {
     out << printable(fmt::format("{:<10}{}", what, said)) << '\n';
   };
@@ -67,7 +67,7 @@ void write_text(const ExportedScene& exported, const fs::path& file, std::ostrea
   line("objects", fmt::format("{}, {}; {} would get a lightmap, {} of them unwrapped", survey.objects.size(),
                               counted(triangles_of(survey), "triangle"), exported.list.targets.size(),
                               unwrapped(exported.list)));
-  line("looks", fmt::format("{}, {}, {}", scene.looks.size(), counted(scene.pictures.size(), "picture"),
+  line("materials", fmt::format("{}, {}, {}", scene.materials.size(), counted(scene.pictures.size(), "picture"),
                             counted(scene.normal_maps.size(), "normal map")));
   line("lights", fmt::format("{}", survey.lights.size()));
   line("world", world_text(scene));
@@ -78,8 +78,8 @@ void write_text(const ExportedScene& exported, const fs::path& file, std::ostrea
     out << printable(fmt::format("  {}: {}", outside.owner, fmt::join(outside.what, ", "))) << '\n';
 }
 
-json as_json(const ExportedScene& exported, const fs::path& file) {
-  const Exchange& scene = exported.exchange;
+json as_json(const ExportResult& exported, const fs::path& file) {
+  const DiffuseScene& scene = exported.diffuse_scene;
   const Vec3& radiance = scene.world.radiance;
   json result{
       {"schema_version", 1},
@@ -90,7 +90,7 @@ json as_json(const ExportedScene& exported, const fs::path& file) {
       {"triangles", triangles_of(scene.survey)},
       {"lightmaps", exported.list.targets.size()},
       {"unwrapped", unwrapped(exported.list)},
-      {"looks", scene.looks.size()},
+      {"materials", scene.materials.size()},
       {"pictures", scene.pictures.size()},
       {"normal_maps", scene.normal_maps.size()},
       {"lights", scene.survey.lights.size()},
@@ -109,8 +109,8 @@ void export_to_file(const ResolvedConfig& config, bool json_wanted, std::ostream
   AtomicFile(file).write(" ");  // never committed: finds out now that nothing can be written there
   LateBlender blender(config.globals);
   Workspace workspace(config, blender);
-  const ExportedScene exported = export_scene(workspace);
-  write_exchange(file, exported.exchange);
+  const ExportResult exported = export_scene(workspace);
+  write_diffuse_scene(file, exported.diffuse_scene);
   if (json_wanted) {
     out << as_json(exported, file).dump(2) << '\n';
   } else {

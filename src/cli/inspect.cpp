@@ -1,10 +1,10 @@
 #include "cli/inspect.h"
 
 #include "base/error.h"
+#include "blender/late_blender.h"
 #include "cli/inspect_scene.h"
 #include "cli/inspect_write.h"
 #include "cli/settings_flags.h"
-#include "blender/late_blender.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
@@ -28,7 +28,7 @@ void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
   config.globals.scene.materials = SceneSettings::Materials::full;  // look at the scene as it is
   LateBlender blender(config.globals);
   Workspace workspace(config, blender);
-  const Survey survey = survey_scene(workspace).survey;
+  const SceneSurvey survey = survey_scene(workspace).survey;
   const Inspection inspection = inspect_scene(survey, config);
   if (as_json) {
     out << inspection_json(survey, inspection).dump(2) << '\n';

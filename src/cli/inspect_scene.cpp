@@ -46,7 +46,7 @@ void look_at_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
     inspected.problems.push_back(spoken(problem));
 }
 
-InspectedObject inspect_object(const Survey& survey, const SceneObject& object,
+InspectedObject inspect_object(const SceneSurvey& survey, const SceneObject& object,
                                const ResolvedConfig& config) {
   InspectedObject inspected;
   inspected.object = &object;
@@ -70,7 +70,7 @@ InspectedObject inspect_object(const Survey& survey, const SceneObject& object,
 
 }  // namespace
 
-Inspection inspect_scene(const Survey& survey, const ResolvedConfig& config) {
+Inspection inspect_scene(const SceneSurvey& survey, const ResolvedConfig& config) {
   Inspection inspection;
   for (const SceneObject& object : survey.objects)
     inspection.objects.push_back(inspect_object(survey, object, config));

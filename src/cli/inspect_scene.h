@@ -32,6 +32,6 @@ struct Inspection {
 };
 
 /// The result points into `survey`.
-[[nodiscard]] Inspection inspect_scene(const Survey& survey, const ResolvedConfig& config);
+[[nodiscard]] Inspection inspect_scene(const SceneSurvey& survey, const ResolvedConfig& config);
 
 }  // namespace rnmbake

@@ -72,7 +72,7 @@ void write_not_selected(const std::vector<InspectedObject>& objects, std::ostrea
     out << '\n' << printable(fmt::format("not selected ({}): {}", keys.size(), first_names(keys, 8))) << '\n';
 }
 
-void write_lights(const Survey& survey, std::ostream& out) {
+void write_lights(const SceneSurvey& survey, std::ostream& out) {
   for (const LightInfo& light : survey.lights) {
     std::string line = fmt::format("light     {} ({}, {:g})", light.name, light.type, light.energy);
     if (!light.outside_model.empty()) line += fmt::format(": {}", fmt::join(light.outside_model, ", "));
@@ -134,7 +134,7 @@ json light_json(const LightInfo& light) {
 
 }  // namespace
 
-void write_inspection(const Survey& survey, const Inspection& inspection, std::ostream& out) {
+void write_inspection(const SceneSurvey& survey, const Inspection& inspection, std::ostream& out) {
   TextTable table;
   table.add({"OBJECT", "TYPE", "TRIANGLES", "UV LAYERS", "LIGHTMAP", "SIZE", "TEXELS/UNIT", "PROBLEMS"});
   for (TextTable::Row& row : grouped_rows(inspection.objects)) table.add(std::move(row));
@@ -149,7 +149,7 @@ void write_inspection(const Survey& survey, const Inspection& inspection, std::o
   }
 }
 
-nlohmann::json inspection_json(const Survey& survey, const Inspection& inspection) {
+nlohmann::json inspection_json(const SceneSurvey& survey, const Inspection& inspection) {
   json result{
       {"schema_version", 1},
       {"scene", survey.scene_file},

@@ -9,8 +9,8 @@
 
 namespace rnmbake {
 
-void write_inspection(const Survey& survey, const Inspection& inspection, std::ostream& out);
+void write_inspection(const SceneSurvey& survey, const Inspection& inspection, std::ostream& out);
 
-[[nodiscard]] nlohmann::json inspection_json(const Survey& survey, const Inspection& inspection);
+[[nodiscard]] nlohmann::json inspection_json(const SceneSurvey& survey, const Inspection& inspection);
 
 }  // namespace rnmbake

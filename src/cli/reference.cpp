@@ -3,11 +3,11 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "blender/late_blender.h"
 #include "cli/basis_file.h"
 #include "cli/settings_flags.h"
-#include "pipeline/scene/export_scene.h"
-#include "blender/late_blender.h"
 #include "pipeline/reference/reference_run.h"
+#include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/save_scene.h"
 #include "process/stop.h"
 
@@ -31,7 +31,7 @@ int report(const ReferenceOutcome& outcome, const OutputSettings& output) {
   return static_cast<int>(ExitCode::ok);
 }
 
-void say_what_is_left_out(const Exchange& scene) {
+void say_what_is_left_out(const DiffuseScene& scene) {
   for (const OutsideModel& outside : scene.outside) {
     std::string what;
     for (const std::string& one : outside.what) what += (what.empty() ? "" : ", ") + one;
@@ -47,12 +47,12 @@ int reference(const ResolvedConfig& config) {
   (void)plan_reference(config, "5.0");  // and so is a setting that makes no sense, whatever the version
   Workspace workspace(config, blender);
   prepare_output(settings.output);
-  const ExportedScene exported = export_scene(workspace);
-  const Survey& survey = exported.exchange.survey;
+  const ExportResult exported = export_scene(workspace);
+  const SceneSurvey& survey = exported.diffuse_scene.survey;
   check_light(config, survey);
-  say_what_is_left_out(exported.exchange);
+  say_what_is_left_out(exported.diffuse_scene);
   const ReferencePlan plan = plan_reference(config, survey.blender_version);
-  const TraceScene scene(exported.exchange, plan.blender_version);
+  const TraceScene scene(exported.diffuse_scene, plan.blender_version);
   const EarlierLightmaps earlier =
       find_earlier(workspace, {"reference", bases}, survey, exported.list.targets);
   SavedScene saved;

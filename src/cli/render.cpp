@@ -4,17 +4,17 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "blender/late_blender.h"
 #include "cli/command_line.h"
 #include "cli/render_flags.h"
 #include "image/display_png.h"
 #include "image/layered_exr.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
-#include "pipeline/scene/export_scene.h"
-#include "pipeline/scene/fit_camera.h"
-#include "blender/late_blender.h"
 #include "pipeline/reference/reference_plan.h"
 #include "pipeline/render/render_compare.h"
 #include "pipeline/render/render_cycles.h"
+#include "pipeline/scene/export_scene.h"
+#include "pipeline/scene/fit_camera.h"
 #include "process/stop.h"
 #include "report/write.h"
 
@@ -44,9 +44,9 @@ class Stage {
         blender_(config.globals),
         workspace_(config_, blender_),
         exported_(opened()),
-        plan_(plan_reference(config_, exported_.exchange.survey.blender_version)),
-        scene_(exported_.exchange, plan_.blender_version) {
-    if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps, exported_.exchange);
+        plan_(plan_reference(config_, exported_.diffuse_scene.survey.blender_version)),
+        scene_(exported_.diffuse_scene, plan_.blender_version) {
+    if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps, exported_.diffuse_scene);
     if (lightmaps_ && !lightmaps_->bare().empty())
       log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
   }
@@ -74,15 +74,15 @@ class Stage {
   }
 
  private:
-  ExportedScene opened() {
+  ExportResult opened() {
     if (!is_exchange(config_.globals.scene.file)) (void)blender_.info();
-    ExportedScene exported = export_scene(workspace_);
+    ExportResult exported = export_scene(workspace_);
     give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
   }
 
   [[nodiscard]] RenderOptions render_options(bool cycles) const {
-    RenderOptions options = rnmbake::render_options(camera_of(exported_.exchange));
+    RenderOptions options = rnmbake::render_options(camera_of(exported_.diffuse_scene));
     if (const auto size = flags_.size()) std::tie(options.view.width, options.view.height) = *size;
     const bool traced = cycles || flags_.decode == "truth";
     options.view.samples = flags_.samples > 0 ? flags_.samples : traced ? traced_samples : looked_up_samples;
@@ -118,7 +118,7 @@ class Stage {
   const RenderFlags& flags_;
   LateBlender blender_;
   Workspace workspace_;
-  ExportedScene exported_;
+  ExportResult exported_;
   ReferencePlan plan_;
   TraceScene scene_;
   std::optional<SceneLightmaps> lightmaps_;

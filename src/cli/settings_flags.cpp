@@ -88,8 +88,8 @@ void SettingsFlags::add(CLI::App& command, const Setting& setting, const std::st
   options_.emplace_back(&setting, option);
 }
 
-std::vector<Given> SettingsFlags::given_flags() const {
-  std::vector<Given> flags;
+std::vector<SettingOverride> SettingsFlags::given_flags() const {
+  std::vector<SettingOverride> flags;
   for (const auto& [setting, option] : options_) {
     if (option->count() == 0) continue;
     const bool is_list = setting->kind == SettingKind::text_list;
@@ -97,7 +97,7 @@ std::vector<Given> SettingsFlags::given_flags() const {
     std::string where = "flag " + setting->flag();
     SettingValue value = parse_value(*setting, text, where);
     if (value == SettingValue(false)) where = "flag --no-" + setting->flag().substr(2);
-    Given one{setting, std::move(value), SettingSource::flag, std::move(where)};
+    SettingOverride one{setting, std::move(value), SettingSource::flag, std::move(where)};
     flags.push_back(std::move(one));
   }
   return flags;
@@ -108,7 +108,7 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
     out << settings_reference();
     return std::nullopt;
   }
-  std::vector<Given> flags = given_flags();
+  std::vector<SettingOverride> flags = given_flags();
   ProjectFile project;
   if (scene_->count() > 0) {
     const std::string scene = scene_->results().back();
@@ -116,11 +116,11 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
       project = read_project(scene);
     } else {
       const Setting* file = find_setting("file");
-      for (const Given& flag : flags) {
+      for (const SettingOverride& flag : flags) {
         if (flag.setting == file)
           fail(ExitCode::usage, "{} and --file both name a scene; give one of them", scene);
       }
-      Given one{file, scene, SettingSource::flag, "argument SCENE"};
+      SettingOverride one{file, scene, SettingSource::flag, "argument SCENE"};
       flags.push_back(std::move(one));
     }
   }

@@ -34,7 +34,7 @@ class SettingsFlags {
 
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
-  [[nodiscard]] std::vector<Given> given_flags() const;
+  [[nodiscard]] std::vector<SettingOverride> given_flags() const;
 
   Purpose purpose_;
   std::vector<std::pair<const Setting*, CLI::Option*>> options_;

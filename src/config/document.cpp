@@ -19,7 +19,7 @@ std::string line(std::string_view key, const SettingValue& value, std::string_vi
 std::string print_override(const ResolvedConfig& config, const ObjectOverride& override_) {
   std::string text = fmt::format("\n{:<{}} # {}\n", "[[override]]", comment_column, override_.where);
   text += fmt::format("objects = {}\n", to_toml(override_.objects));
-  for (const Given& given : override_.values) {
+  for (const SettingOverride& given : override_.values) {
     const Setting& setting = *given.setting;
     const std::string comment = config.fixed_for_all(setting) ? fmt::format("{}, but {} wins", given.where,
                                                                             config.provenance(setting.key))
@@ -88,7 +88,7 @@ std::string print_config(const ResolvedConfig& config, Purpose purpose) {
   std::string text;
   for (const SettingTable& table : setting_tables()) {
     std::string lines;
-    for (const Given& given : config.values()) {
+    for (const SettingOverride& given : config.values()) {
       if (given.setting->table == table.name && given.setting->serves(purpose))
         lines += line(given.setting->key, given.value, given.where);
     }

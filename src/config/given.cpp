@@ -13,13 +13,13 @@ EnvironmentLookup process_environment() {
   };
 }
 
-std::vector<Given> read_environment(const EnvironmentLookup& environment) {
-  std::vector<Given> given;
+std::vector<SettingOverride> read_environment(const EnvironmentLookup& environment) {
+  std::vector<SettingOverride> given;
   for (const Setting& setting : settings()) {
     const std::string name = setting.environment();
     const auto text = environment(name);
     if (!text || text->empty()) continue;
-    Given one{&setting, parse_value(setting, *text, name), SettingSource::environment, name};
+    SettingOverride one{&setting, parse_value(setting, *text, name), SettingSource::environment, name};
     given.push_back(std::move(one));
   }
   return given;

@@ -13,7 +13,7 @@ namespace rnmbake {
 /// In order of precedence: a later source wins over an earlier one.
 enum class SettingSource { fallback, project, environment, flag };
 
-struct Given {
+struct SettingOverride {
   const Setting* setting = nullptr;
   SettingValue value;
   SettingSource source = SettingSource::fallback;
@@ -24,14 +24,14 @@ struct Given {
 struct ObjectOverride {
   std::vector<std::string> objects;
   std::string where;  // "project.toml:20"
-  std::vector<Given> values;
+  std::vector<SettingOverride> values;
 };
 
-/// Looks a variable up; nullopt where it is not set.
+/// SurfaceMaterials a variable up; nullopt where it is not set.
 using EnvironmentLookup = std::function<std::optional<std::string>(const std::string& name)>;
 [[nodiscard]] EnvironmentLookup process_environment();
 
 /// RNMBAKE_* of every setting; empty ones count as not set. Throws Error(usage) naming the variable.
-[[nodiscard]] std::vector<Given> read_environment(const EnvironmentLookup& environment);
+[[nodiscard]] std::vector<SettingOverride> read_environment(const EnvironmentLookup& environment);
 
 }  // namespace rnmbake

@@ -90,7 +90,7 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-Given read_value(const Reader& reader, const Setting& setting, const toml::node& node) {
+SettingOverride read_value(const Reader& reader, const Setting& setting, const toml::node& node) {
   const std::string where = reader.where(node);
   auto value = value_of(setting.kind, node);
   if (!value) {

@@ -11,7 +11,7 @@ namespace rnmbake {
 
 struct ProjectFile {
   std::filesystem::path file;
-  std::vector<Given> values;
+  std::vector<SettingOverride> values;
   std::vector<ObjectOverride> overrides;  // in the file's order
 };
 

@@ -55,13 +55,13 @@ void check_bases(const BakingSettings& bake, const std::string& where) {
 
 }  // namespace
 
-void ResolvedConfig::take(const Given& given) {
+void ResolvedConfig::take(const SettingOverride& given) {
   given.setting->slot.set(globals, given.value);
   values_.at(static_cast<std::size_t>(given.setting - settings().data())) = given;
 }
 
-const Given& ResolvedConfig::given(std::string_view key) const {
-  for (const Given& one : values_) {
+const SettingOverride& ResolvedConfig::given(std::string_view key) const {
+  for (const SettingOverride& one : values_) {
     if (one.setting->key == key) return one;
   }
   throw std::logic_error(fmt::format("no setting has the key '{}'", key));
@@ -74,8 +74,8 @@ const std::string& ResolvedConfig::provenance(std::string_view key) const {
 /// texels_per_unit normally decides alone. But who types --resolution 64 over a project that chooses sizes by
 /// surface asks for 64: of the two, the one from the stronger source counts.
 void ResolvedConfig::let_stronger_resolution_win() {
-  const Given& fixed = given("resolution");
-  const Given& by_surface = given("texels_per_unit");
+  const SettingOverride& fixed = given("resolution");
+  const SettingOverride& by_surface = given("texels_per_unit");
   const bool project_only =
       fixed.source == SettingSource::project;  // by_surface is off then, and may be overridden
   if (fixed.source > by_surface.source && !project_only) {
@@ -91,9 +91,9 @@ bool ResolvedConfig::fixed_for_all(const Setting& setting) const {
 void ResolvedConfig::apply(const ObjectOverride& override_, BakeSettings& settings) const {
   const auto sets = [&](std::string_view key) {
     return std::any_of(override_.values.begin(), override_.values.end(),
-                       [&](const Given& one) { return one.setting->key == key; });
+                       [&](const SettingOverride& one) { return one.setting->key == key; });
   };
-  for (const Given& one : override_.values) {
+  for (const SettingOverride& one : override_.values) {
     if (!fixed_for_all(*one.setting)) one.setting->slot.set(settings, one.value);
   }
   if (sets("resolution") && !sets("texels_per_unit") && !fixed_for_all(*find_setting("texels_per_unit"))) {
@@ -126,15 +126,15 @@ void ResolvedConfig::check_together() const {
   }
 }
 
-ResolvedConfig resolve(const ProjectFile& project, const std::vector<Given>& environment,
-                       const std::vector<Given>& flags) {
+ResolvedConfig resolve(const ProjectFile& project, const std::vector<SettingOverride>& environment,
+                       const std::vector<SettingOverride>& flags) {
   ResolvedConfig config;
   for (const Setting& setting : settings()) {
-    Given given{&setting, setting.default_value(), SettingSource::fallback, "default"};
+    SettingOverride given{&setting, setting.default_value(), SettingSource::fallback, "default"};
     config.values_.push_back(std::move(given));
   }
   for (const auto* layer : {&project.values, &environment, &flags}) {
-    for (const Given& given : *layer) config.take(given);
+    for (const SettingOverride& given : *layer) config.take(given);
   }
   config.let_stronger_resolution_win();
   fill_bases(config.globals.bake);

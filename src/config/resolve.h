@@ -25,7 +25,7 @@ class ResolvedConfig {
   [[nodiscard]] bool selects(std::string_view name, std::string_view key) const;
 
   /// Every setting in the order of settings(), with its value and where that came from.
-  [[nodiscard]] const std::vector<Given>& values() const { return values_; }
+  [[nodiscard]] const std::vector<SettingOverride>& values() const { return values_; }
   /// "flag --samples", "RNMBAKE_SAMPLES", "project.toml:12" or "default".
   [[nodiscard]] const std::string& provenance(std::string_view key) const;
   [[nodiscard]] const std::vector<ObjectOverride>& overrides() const { return overrides_; }
@@ -33,21 +33,23 @@ class ResolvedConfig {
   [[nodiscard]] bool fixed_for_all(const Setting& setting) const;
 
  private:
-  friend ResolvedConfig resolve(const ProjectFile&, const std::vector<Given>&, const std::vector<Given>&);
-  void take(const Given& given);
+  friend ResolvedConfig resolve(const ProjectFile&, const std::vector<SettingOverride>&,
+                                const std::vector<SettingOverride>&);
+  void take(const SettingOverride& given);
   void let_stronger_resolution_win();
-  [[nodiscard]] const Given& given(std::string_view key) const;
+  [[nodiscard]] const SettingOverride& given(std::string_view key) const;
   void apply(const ObjectOverride& override_, BakeSettings& settings) const;
   void check_together() const;
 
-  std::vector<Given> values_;
+  std::vector<SettingOverride> values_;
   std::vector<ObjectOverride> overrides_;
 };
 
 /// Throws Error(usage) where values do not fit together (min_resolution above max_resolution, a basis that
 /// does not exist). `project` may be empty.
-[[nodiscard]] ResolvedConfig resolve(const ProjectFile& project, const std::vector<Given>& environment,
-                                     const std::vector<Given>& flags);
+[[nodiscard]] ResolvedConfig resolve(const ProjectFile& project,
+                                     const std::vector<SettingOverride>& environment,
+                                     const std::vector<SettingOverride>& flags);
 
 /// The patterns that match none of the names. Give names and keys of all objects.
 [[nodiscard]] std::vector<std::string> unmatched(const std::vector<std::string>& patterns,

@@ -48,7 +48,7 @@ struct PictureMetrics {
   bool too_noisy = false;  // a few texels make the mean's noise: its interval is wide, its value says little
 };
 
-/// Pictures (of one object, or all of a scene) compared as one. The intervals come from a jackknife over
+/// Textures (of one object, or all of a scene) compared as one. The intervals come from a jackknife over
 /// tiles of at most 8x8 texels, smaller where a picture would have fewer than 16: right where neighbours
 /// within a tile are correlated, as after filtering or with patterns of samples. The squared error is
 /// unbiased: the square of the difference, less the noise's variance on either side; for two halves a1, a2

@@ -18,7 +18,7 @@ struct BasisMetrics {
   PictureMetrics metrics;
 };
 
-/// Pictures of one basis to look at, all of one size: scaled down by report/maps.h, not for measuring.
+/// Textures of one basis to look at, all of one size: scaled down by report/maps.h, not for measuring.
 /// Texels that do not count are NaN. What there is none of is empty.
 struct BasisMaps {
   std::string basis;

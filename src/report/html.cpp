@@ -48,7 +48,7 @@ std::string for_script(const json& document) {
   return out;
 }
 
-/// Pictures of one size that are unpacked together.
+/// Textures of one size that are unpacked together.
 struct Bundle {
   std::vector<std::string> names;
   std::vector<FloatImage> images;

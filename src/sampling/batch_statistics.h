@@ -11,9 +11,9 @@ namespace rnmbake {
 /// Collects `values` colours for each of `texels` texels. Samples within a batch may depend on each other
 /// (they are stratified), batches may not: the standard error comes from how the batches' means scatter. All
 /// batches are of one size.
-class BatchTally {
+class BatchStatistics {
  public:
-  BatchTally(std::size_t texels, std::size_t values)
+  BatchStatistics(std::size_t texels, std::size_t values)
       : texels_(texels),
         values_(values),
         batch_(texels * values, Vec3(0)),
@@ -57,7 +57,7 @@ class BatchTally {
   std::vector<Moments> whole_;  // [values]
 };
 
-inline void BatchTally::end_batch(int samples) {
+inline void BatchStatistics::end_batch(int samples) {
   ++batches_;
   const float scale = 1 / static_cast<float>(samples);
   for (std::size_t v = 0; v < values_; ++v) {

@@ -5,9 +5,9 @@
 
 namespace rnmbake {
 
-const Look& Exchange::look(std::size_t object, std::size_t slot) const {
-  const std::vector<int>& slots = object_looks[object];
-  return looks[static_cast<std::size_t>(slots[std::min(slot, slots.size() - 1)])];
+const SurfaceMaterial& DiffuseScene::material(std::size_t object, std::size_t slot) const {
+  const std::vector<int>& slots = object_materials[object];
+  return materials[static_cast<std::size_t>(slots[std::min(slot, slots.size() - 1)])];
 }
 
 Vec2 world_uv(const Vec3& direction) {

@@ -1,5 +1,5 @@
-// scene/diffuse_scene.h - a whole scene as a diffuse path tracer needs it: geometry, looks, lights, world, camera.
-// Kept in one .rnmscene file (docs/rnmscene-format.md).
+// scene/diffuse_scene.h - a whole scene as a diffuse path tracer needs it: geometry, looks, lights, world,
+// camera. Kept in one .rnmscene file (docs/rnmscene-format.md).
 #pragma once
 
 #include "base/math.h"
@@ -13,7 +13,7 @@
 namespace rnmbake {
 
 /// Linear colours, row 0 on top: texel (x, y) has the UV (x + 0.5) / width, 1 - (y + 0.5) / height.
-struct Picture {
+struct Texture {
   int width = 0, height = 0;
   std::vector<Vec3> texels;  // finite; of emission and the world they may be negative
   std::string name = {};     // Blender's, for messages
@@ -29,13 +29,13 @@ struct NormalMap {
 /// What one material slot of one object looks like to Cycles: an ideal diffuse reflector that may glow and
 /// let light straight through. A picture stands in place of the constant; it is read bilinearly, clamped at
 /// the borders.
-struct Look {
-  std::string material;
+struct SurfaceMaterial {
+  std::string name;
   Vec3 albedo{0, 0, 0};                            // in [0, 1]
   Vec3 emission{0, 0, 0};                          // radiance, the same from both sides; may be negative
-  int albedo_picture = -1, emission_picture = -1;  // indices into Exchange::pictures
-  int picture_uv = -1;                             // index into Exchange::picture_uvs
-  int normal_map = -1;                             // index into Exchange::normal_maps
+  int albedo_picture = -1, emission_picture = -1;  // indices into DiffuseScene::pictures
+  int picture_uv = -1;                             // index into DiffuseScene::picture_uvs
+  int normal_map = -1;                             // index into DiffuseScene::normal_maps
   Vec3 transmittance{0, 0, 0};  // in [0, 1], with the albedo at most 1; the same from both sides
   int transmittance_picture = -1;
 
@@ -70,21 +70,21 @@ struct OutsideModel {
   std::vector<std::string> untraced = {};
 };
 
-struct Exchange {
-  Survey survey;
-  std::vector<Picture> pictures;
+struct DiffuseScene {
+  SceneSurvey survey;
+  std::vector<Texture> pictures;
   std::vector<std::vector<Vec2>> picture_uvs;  // each with one UV for each loop of the mesh that uses it
   std::vector<NormalMap> normal_maps;
-  std::vector<Look> looks;
-  std::vector<std::vector<int>> object_looks;  // [objects][slots], never empty for an object
+  std::vector<SurfaceMaterial> materials;
+  std::vector<std::vector<int>> object_materials;  // [objects][slots], never empty for an object
   std::vector<char>
       unlit;  // [objects] or empty, 1: shows itself to cameras alone, blocks and reflects nothing
   World world;
   std::optional<Camera> camera;
   std::vector<OutsideModel> outside;
 
-  [[nodiscard]] const Look& look(std::size_t object,
-                                 std::size_t slot) const;  // slots past the last: the last
+  [[nodiscard]] const SurfaceMaterial& material(std::size_t object,
+                                                std::size_t slot) const;  // slots past the last: the last
   [[nodiscard]] bool takes_part(std::size_t object) const {
     return object >= unlit.size() || unlit[object] == 0;
   }
@@ -95,23 +95,23 @@ struct Exchange {
 /// The inverse of world_uv(): unit direction.
 [[nodiscard]] Vec3 world_direction(const Vec2& uv);
 
-inline constexpr const char* exchange_ending = ".rnmscene";
+inline constexpr const char* diffuse_scene_ending = ".rnmscene";
 
 /// Checks the checksum, then sizes, indices and finiteness of everything. Throws Error(io) where the file
 /// cannot be read, Error(unsupported) for another version, Error(invalid_input) naming file, owner and what
 /// is wrong.
-[[nodiscard]] Exchange read_exchange(const std::filesystem::path& file);
+[[nodiscard]] DiffuseScene read_diffuse_scene(const std::filesystem::path& file);
 
 /// The same from memory, whatever the checksum says: what a fuzzer feeds. `name` goes into messages.
-[[nodiscard]] Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name);
+[[nodiscard]] DiffuseScene parse_diffuse_scene(const std::vector<char>& bytes, const std::string& name);
 
 /// What export_entry.py left: survey.json with the key "exchange", and its data (docs/rnmscene-format.md).
-[[nodiscard]] Exchange read_exported(const std::filesystem::path& json_file);
+[[nodiscard]] DiffuseScene read_exported(const std::filesystem::path& json_file);
 
 /// The bytes of the file; the same for the same scene.
-[[nodiscard]] std::string exchange_bytes(const Exchange& scene);
+[[nodiscard]] std::string diffuse_scene_bytes(const DiffuseScene& scene);
 
 /// Writes whole or not at all. Throws Error(io).
-void write_exchange(const std::filesystem::path& file, const Exchange& scene);
+void write_diffuse_scene(const std::filesystem::path& file, const DiffuseScene& scene);
 
 }  // namespace rnmbake

@@ -28,7 +28,7 @@ void check_index(int index, std::size_t count, bool none, const std::string& own
   fail(ExitCode::invalid_input, "{}: {} {} of {} does not exist; {}", owner, what, index, count, remedy);
 }
 
-void check_pictures(const Exchange& scene) {
+void check_pictures(const DiffuseScene& scene) {
   for (std::size_t i = 0; i < scene.picture_uvs.size(); ++i) {
     const bool fine = std::all_of(scene.picture_uvs[i].begin(), scene.picture_uvs[i].end(),
                                   [](const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); });
@@ -42,24 +42,24 @@ void check_pictures(const Exchange& scene) {
   }
 }
 
-void check_look(const Exchange& scene, const Look& look) {
-  const std::string owner = "material '" + look.material + "'";
-  if (!is_share(look.albedo))
+void check_look(const DiffuseScene& scene, const SurfaceMaterial& material) {
+  const std::string owner = "material '" + material.name + "'";
+  if (!is_share(material.albedo))
     fail(ExitCode::invalid_input, "{}: its albedo is not within 0 and 1; {}", owner, remedy);
-  if (!is_share(look.transmittance))
+  if (!is_share(material.transmittance))
     fail(ExitCode::invalid_input, "{}: its transmittance is not within 0 and 1; {}", owner, remedy);
-  if (look.albedo_picture < 0 && look.transmittance_picture < 0 &&
-      largest(look.albedo + look.transmittance) > 1 + rounding)
+  if (material.albedo_picture < 0 && material.transmittance_picture < 0 &&
+      largest(material.albedo + material.transmittance) > 1 + rounding)
     fail(ExitCode::invalid_input, "{}: its albedo and transmittance together are above 1; {}", owner, remedy);
-  if (!is_finite(look.emission))
+  if (!is_finite(material.emission))
     fail(ExitCode::invalid_input, "{}: its emission is not finite; {}", owner, remedy);
-  check_index(look.albedo_picture, scene.pictures.size(), true, owner, "albedo picture");
-  check_index(look.emission_picture, scene.pictures.size(), true, owner, "emission picture");
-  check_index(look.transmittance_picture, scene.pictures.size(), true, owner, "transmittance picture");
-  check_index(look.picture_uv, scene.picture_uvs.size(), true, owner, "picture UVs");
-  check_index(look.normal_map, scene.normal_maps.size(), true, owner, "normal map");
-  if (look.picture_uv < 0 &&
-      (look.albedo_picture >= 0 || look.emission_picture >= 0 || look.transmittance_picture >= 0))
+  check_index(material.albedo_picture, scene.pictures.size(), true, owner, "albedo picture");
+  check_index(material.emission_picture, scene.pictures.size(), true, owner, "emission picture");
+  check_index(material.transmittance_picture, scene.pictures.size(), true, owner, "transmittance picture");
+  check_index(material.picture_uv, scene.picture_uvs.size(), true, owner, "picture UVs");
+  check_index(material.normal_map, scene.normal_maps.size(), true, owner, "normal map");
+  if (material.picture_uv < 0 &&
+      (material.albedo_picture >= 0 || material.emission_picture >= 0 || material.transmittance_picture >= 0))
     fail(ExitCode::invalid_input, "{}: its picture has no UVs; {}", owner, remedy);
 }
 
@@ -70,31 +70,33 @@ bool has_layer(const Mesh& mesh, const std::string& name) {
 }
 
 /// That the look's UVs are made for the object's mesh.
-void check_fit(const Exchange& scene, const SceneObject& object, const Look& look) {
+void check_fit(const DiffuseScene& scene, const SceneObject& object, const SurfaceMaterial& material) {
   const Mesh& mesh = scene.survey.mesh_of(object);
-  const auto uvs = static_cast<std::size_t>(look.picture_uv), map = static_cast<std::size_t>(look.normal_map);
-  if (look.picture_uv >= 0 && scene.picture_uvs[uvs].size() != mesh.loop_vertex.size()) {
+  const auto uvs = static_cast<std::size_t>(material.picture_uv),
+             map = static_cast<std::size_t>(material.normal_map);
+  if (material.picture_uv >= 0 && scene.picture_uvs[uvs].size() != mesh.loop_vertex.size()) {
     fail(ExitCode::invalid_input, "object '{}': {} picture UVs for {} corners; {}", object.key,
          scene.picture_uvs[uvs].size(), mesh.loop_vertex.size(), remedy);
   }
-  if (look.normal_map >= 0 && !has_layer(mesh, scene.normal_maps[map].uv_layer)) {
+  if (material.normal_map >= 0 && !has_layer(mesh, scene.normal_maps[map].uv_layer)) {
     fail(ExitCode::invalid_input, "object '{}': no UV layer '{}' for its normal map; {}", object.key,
          scene.normal_maps[map].uv_layer, remedy);
   }
 }
 
-void check_objects(const Exchange& scene) {
+void check_objects(const DiffuseScene& scene) {
   const auto& objects = scene.survey.objects;
-  if (scene.object_looks.size() != objects.size()) {
-    fail(ExitCode::invalid_input, "looks for {} objects, but there are {}; {}", scene.object_looks.size(),
+  if (scene.object_materials.size() != objects.size()) {
+    fail(ExitCode::invalid_input, "looks for {} objects, but there are {}; {}", scene.object_materials.size(),
          objects.size(), remedy);
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::string owner = "object '" + objects[i].key + "'";
-    if (scene.object_looks[i].empty()) fail(ExitCode::invalid_input, "{}: it has no look; {}", owner, remedy);
-    for (const int look : scene.object_looks[i]) {
-      check_index(look, scene.looks.size(), false, owner, "look");
-      check_fit(scene, objects[i], scene.looks[static_cast<std::size_t>(look)]);
+    if (scene.object_materials[i].empty())
+      fail(ExitCode::invalid_input, "{}: it has no look; {}", owner, remedy);
+    for (const int material : scene.object_materials[i]) {
+      check_index(material, scene.materials.size(), false, owner, "look");
+      check_fit(scene, objects[i], scene.materials[static_cast<std::size_t>(material)]);
     }
   }
 }
@@ -114,9 +116,9 @@ void check_camera(const Camera& camera) {
 
 }  // namespace
 
-void check_exchange(const Exchange& scene) {
+void check_diffuse_scene(const DiffuseScene& scene) {
   check_pictures(scene);
-  for (const Look& look : scene.looks) check_look(scene, look);
+  for (const SurfaceMaterial& material : scene.materials) check_look(scene, material);
   check_objects(scene);
   if (!is_finite(scene.world.radiance))
     fail(ExitCode::invalid_input, "world: its radiance is not finite; {}", remedy);

@@ -66,7 +66,7 @@ void check_checksum(std::string_view bytes, const std::string& name) {
 
 /// Runs `parse` with the name of the file in front of whatever goes wrong.
 template <typename Parse>
-Exchange named(const std::string& name, Parse parse) {
+DiffuseScene named(const std::string& name, Parse parse) {
   try {
     return parse();
   } catch (const json::exception& error) {
@@ -76,29 +76,29 @@ Exchange named(const std::string& name, Parse parse) {
   }
 }
 
-Exchange parse(std::string_view bytes, const std::string& name) {
+DiffuseScene parse(std::string_view bytes, const std::string& name) {
   const Header header = read_header(bytes, name);
   return named(name, [&] {
     const char* text = bytes.data() + sizeof(Header);
     Blob data(text + header.json_bytes, header.data_bytes);
-    return parse_exchange_content(parse_json({text, header.json_bytes}, "its description"), data);
+    return parse_diffuse_scene_content(parse_json({text, header.json_bytes}, "its description"), data);
   });
 }
 
 }  // namespace
 
-Exchange parse_exchange(const std::vector<char>& bytes, const std::string& name) {
+DiffuseScene parse_diffuse_scene(const std::vector<char>& bytes, const std::string& name) {
   return parse({bytes.data(), bytes.size()}, name);
 }
 
-Exchange read_exchange(const fs::path& file) {
+DiffuseScene read_diffuse_scene(const fs::path& file) {
   const std::string bytes = read_data(file);
   (void)read_header(bytes, file.string());  // first, since it says more of a file that was cut off
   check_checksum(bytes, file.string());
   return parse(bytes, file.string());
 }
 
-Exchange read_exported(const fs::path& json_file) {
+DiffuseScene read_exported(const fs::path& json_file) {
   const std::string text = read_text(json_file);
   return named(json_file.string(), [&] {
     const json content = parse_json(text, "its description");
@@ -107,13 +107,13 @@ Exchange read_exported(const fs::path& json_file) {
       fail(ExitCode::invalid_input, "its data has {} bytes, {} were written; is the disk full?", bytes.size(),
            count_at(content, "data_bytes"));
     Blob data(bytes.data(), bytes.size());
-    return parse_exchange_content(content, data);
+    return parse_diffuse_scene_content(content, data);
   });
 }
 
-std::string exchange_bytes(const Exchange& scene) {
+std::string diffuse_scene_bytes(const DiffuseScene& scene) {
   std::string data;
-  std::string text = store_exchange(scene, data).dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string text = store_diffuse_scene(scene, data).dump(-1, ' ', false, json::error_handler_t::replace);
   text.append((alignment - text.size() % alignment) % alignment, ' ');
   Header header{{}, format_version, 0, text.size(), data.size()};
   magic.copy(header.magic, magic.size());
@@ -125,8 +125,8 @@ std::string exchange_bytes(const Exchange& scene) {
   return bytes;
 }
 
-void write_exchange(const fs::path& file, const Exchange& scene) {
-  write_atomically(file, exchange_bytes(scene));
+void write_diffuse_scene(const fs::path& file, const DiffuseScene& scene) {
+  write_atomically(file, diffuse_scene_bytes(scene));
 }
 
 }  // namespace rnmbake

@@ -15,20 +15,20 @@ Vec3 read_color(const json& values, const std::string& owner) {
   return {values.at(0).get<float>(), values.at(1).get<float>(), values.at(2).get<float>()};
 }
 
-Look read_look(const json& entry) {
-  Look look;
-  look.material = entry.at("material").get<std::string>();
-  look.albedo = read_color(entry.at("albedo"), "albedo of material '" + look.material + "'");
-  look.emission = read_color(entry.at("emission"), "emission of material '" + look.material + "'");
-  look.albedo_picture = index_at(entry, "albedo_picture");
-  look.emission_picture = index_at(entry, "emission_picture");
-  look.picture_uv = index_at(entry, "picture_uv");
-  look.normal_map = index_at(entry, "normal_map");
+SurfaceMaterial read_look(const json& entry) {
+  SurfaceMaterial material;
+  material.name = entry.at("material").get<std::string>();
+  material.albedo = read_color(entry.at("albedo"), "albedo of material '" + material.name + "'");
+  material.emission = read_color(entry.at("emission"), "emission of material '" + material.name + "'");
+  material.albedo_picture = index_at(entry, "albedo_picture");
+  material.emission_picture = index_at(entry, "emission_picture");
+  material.picture_uv = index_at(entry, "picture_uv");
+  material.normal_map = index_at(entry, "normal_map");
   if (const auto found = entry.find("transmittance"); found != entry.end())
-    look.transmittance = read_color(*found, "transmittance of material '" + look.material + "'");
+    material.transmittance = read_color(*found, "transmittance of material '" + material.name + "'");
   if (entry.contains("transmittance_picture"))
-    look.transmittance_picture = index_at(entry, "transmittance_picture");
-  return look;
+    material.transmittance_picture = index_at(entry, "transmittance_picture");
+  return material;
 }
 
 Camera read_camera(const json& entry) {
@@ -46,7 +46,7 @@ Camera read_camera(const json& entry) {
   return camera;
 }
 
-void read_pictures(const json& content, Blob& data, Exchange& scene) {
+void read_pictures(const json& content, Blob& data, DiffuseScene& scene) {
   for (const json& entry : content.at("pictures")) scene.pictures.push_back(parse_picture(entry, data));
   for (const json& entry : content.at("picture_uvs")) {
     const std::size_t number = scene.picture_uvs.size();
@@ -58,11 +58,11 @@ void read_pictures(const json& content, Blob& data, Exchange& scene) {
                                  entry.at("strength").get<float>()});
 }
 
-void read_looks(const json& content, Exchange& scene) {
-  for (const json& entry : content.at("looks")) scene.looks.push_back(read_look(entry));
+void read_looks(const json& content, DiffuseScene& scene) {
+  for (const json& entry : content.at("looks")) scene.materials.push_back(read_look(entry));
   for (const json& entry : content.at("object_looks")) {
-    std::vector<int>& slots = scene.object_looks.emplace_back();
-    for (const json& look : entry) slots.push_back(index_of(look, "look"));
+    std::vector<int>& slots = scene.object_materials.emplace_back();
+    for (const json& material : entry) slots.push_back(index_of(material, "look"));
   }
   scene.unlit.assign(scene.survey.objects.size(), 0);
   for (const json& number : content.at("unlit")) {
@@ -75,8 +75,8 @@ void read_looks(const json& content, Exchange& scene) {
 
 }  // namespace
 
-Exchange parse_exchange_content(const json& content, Blob& data) {
-  Exchange scene;
+DiffuseScene parse_diffuse_scene_content(const json& content, Blob& data) {
+  DiffuseScene scene;
   scene.survey = parse_survey(content, data);
   const json& own = content.at("exchange");
   read_pictures(own, data, scene);
@@ -88,7 +88,7 @@ Exchange parse_exchange_content(const json& content, Blob& data) {
     scene.outside.push_back({entry.at("owner").get<std::string>(),
                              entry.at("what").get<std::vector<std::string>>(),
                              entry.value("untraced", std::vector<std::string>())});
-  check_exchange(scene);
+  check_diffuse_scene(scene);
   return scene;
 }
 

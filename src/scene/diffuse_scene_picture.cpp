@@ -22,7 +22,7 @@ float linear_from_srgb(float value) {
 
 /// Texels of one of the three forms, each channel through `number`.
 template <typename T, typename Number>
-void read_texels(const json& entry, Blob& data, const Owner& owner, Picture& picture, Number number) {
+void read_texels(const json& entry, Blob& data, const Owner& owner, Texture& picture, Number number) {
   const std::size_t count = std::size_t(picture.width) * picture.height;
   const std::vector<T> values = data.cut<T>(entry, "offset", 3 * count, owner);
   picture.texels.resize(count);
@@ -30,7 +30,7 @@ void read_texels(const json& entry, Blob& data, const Owner& owner, Picture& pic
     picture.texels[i] = Vec3(number(values[3 * i]), number(values[3 * i + 1]), number(values[3 * i + 2]));
 }
 
-void check_texels(const Picture& picture, const Owner& owner) {
+void check_texels(const Texture& picture, const Owner& owner) {
   const auto bad = std::find_if_not(picture.texels.begin(), picture.texels.end(), [](const Vec3& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
   });
@@ -52,13 +52,13 @@ bool fits_half(float value) {
 }
 
 template <typename Test>
-bool every_channel(const Picture& picture, Test test) {
+bool every_channel(const Texture& picture, Test test) {
   return std::all_of(picture.texels.begin(), picture.texels.end(),
                      [&](const Vec3& c) { return test(c.x) && test(c.y) && test(c.z); });
 }
 
 template <typename T, typename Code>
-void append_texels(const Picture& picture, std::string& data, Code code) {
+void append_texels(const Texture& picture, std::string& data, Code code) {
   std::vector<T> values;
   values.reserve(3 * picture.texels.size());
   for (const Vec3& c : picture.texels) {
@@ -69,7 +69,7 @@ void append_texels(const Picture& picture, std::string& data, Code code) {
 
 }  // namespace
 
-Picture parse_picture(const json& entry, Blob& data) {
+Texture parse_picture(const json& entry, Blob& data) {
   const auto name = entry.at("name").get<std::string>();
   const Owner owner = [&] { return "picture '" + name + "': "; };
   const std::size_t width = count_at(entry, "width"), height = count_at(entry, "height");
@@ -77,7 +77,7 @@ Picture parse_picture(const json& entry, Blob& data) {
     fail(ExitCode::invalid_input, "{}its size is {} x {}; a side has 1 to {} texels", owner(), width, height,
          largest_side);
   }
-  Picture picture{static_cast<int>(width), static_cast<int>(height), {}, name};
+  Texture picture{static_cast<int>(width), static_cast<int>(height), {}, name};
   const auto form = entry.at("form").get<std::string>();
   if (form == "u8") {
     read_texels<std::uint8_t>(entry, data, owner, picture, [](std::uint8_t v) { return v * byte_step; });
@@ -100,7 +100,7 @@ Picture parse_picture(const json& entry, Blob& data) {
   return picture;
 }
 
-json store_picture(const Picture& picture, std::string& data) {
+json store_picture(const Texture& picture, std::string& data) {
   json entry{
       {"name", picture.name}, {"width", picture.width}, {"height", picture.height}, {"offset", data.size()}};
   if (every_channel(picture, [](float v) { return as_byte(v).has_value(); })) {

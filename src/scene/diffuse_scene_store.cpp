@@ -75,7 +75,7 @@ json store_light(const LightInfo& light) {
           {"outside_model", light.outside_model}};
 }
 
-json store_survey(const Survey& survey, std::string& data) {
+json store_survey(const SceneSurvey& survey, std::string& data) {
   json content{
       {"format", 1},
       {"byte_order", "little"},
@@ -99,16 +99,16 @@ json store_survey(const Survey& survey, std::string& data) {
   return content;
 }
 
-json store_look(const Look& look) {
-  return {{"material", look.material},
-          {"albedo", store_color(look.albedo)},
-          {"emission", store_color(look.emission)},
-          {"transmittance", store_color(look.transmittance)},
-          {"albedo_picture", look.albedo_picture},
-          {"emission_picture", look.emission_picture},
-          {"transmittance_picture", look.transmittance_picture},
-          {"picture_uv", look.picture_uv},
-          {"normal_map", look.normal_map}};
+json store_look(const SurfaceMaterial& material) {
+  return {{"material", material.name},
+          {"albedo", store_color(material.albedo)},
+          {"emission", store_color(material.emission)},
+          {"transmittance", store_color(material.transmittance)},
+          {"albedo_picture", material.albedo_picture},
+          {"emission_picture", material.emission_picture},
+          {"transmittance_picture", material.transmittance_picture},
+          {"picture_uv", material.picture_uv},
+          {"normal_map", material.normal_map}};
 }
 
 json store_camera(const Camera& camera) {
@@ -126,20 +126,20 @@ json store_camera(const Camera& camera) {
 
 }  // namespace
 
-json store_exchange(const Exchange& scene, std::string& data) {
+json store_diffuse_scene(const DiffuseScene& scene, std::string& data) {
   json content = store_survey(scene.survey, data);
   json own{{"world", {{"radiance", store_color(scene.world.radiance)}, {"picture", scene.world.picture}}},
            {"camera", scene.camera ? store_camera(*scene.camera) : json()},
-           {"object_looks", scene.object_looks}};
+           {"object_looks", scene.object_materials}};
   for (const char* list : {"pictures", "picture_uvs", "normal_maps", "looks", "unlit", "outside"})
     own[list] = json::array();
-  for (const Picture& picture : scene.pictures) own["pictures"].push_back(store_picture(picture, data));
+  for (const Texture& picture : scene.pictures) own["pictures"].push_back(store_picture(picture, data));
   for (const auto& uvs : scene.picture_uvs)
     own["picture_uvs"].push_back({{"count", uvs.size()}, {"offset", append(uvs, data)}});
   for (const NormalMap& map : scene.normal_maps)
     own["normal_maps"].push_back(
         {{"picture", map.picture}, {"uv_layer", map.uv_layer}, {"strength", map.strength}});
-  for (const Look& look : scene.looks) own["looks"].push_back(store_look(look));
+  for (const SurfaceMaterial& material : scene.materials) own["looks"].push_back(store_look(material));
   for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
     if (!scene.takes_part(i)) own["unlit"].push_back(i);
   }

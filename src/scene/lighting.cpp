@@ -25,7 +25,7 @@ bool may_shine(const MaterialInfo& material) {
          contains(material.outside_model, "script node");
 }
 
-bool sky_may_shine(const Survey& survey) {
+bool sky_may_shine(const SceneSurvey& survey) {
   if (survey.world == "none") return false;
   if (survey.world == "nodes") return true;
   return survey.world_strength != 0 && !is_black(survey.world_color);
@@ -33,7 +33,7 @@ bool sky_may_shine(const Survey& survey) {
 
 }  // namespace
 
-bool may_be_lit(const Survey& survey) {
+bool may_be_lit(const SceneSurvey& survey) {
   const auto shines = [](const auto& light) { return may_shine(light); };
   return sky_may_shine(survey) || std::any_of(survey.lights.begin(), survey.lights.end(), shines) ||
          std::any_of(survey.materials.begin(), survey.materials.end(),

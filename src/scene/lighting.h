@@ -7,6 +7,6 @@ namespace rnmbake {
 
 /// False only where nothing in the scene can give light: no lamp, no sky, no material that emits and nothing
 /// whose light only a render would tell.
-[[nodiscard]] bool may_be_lit(const Survey& survey);
+[[nodiscard]] bool may_be_lit(const SceneSurvey& survey);
 
 }  // namespace rnmbake

@@ -36,14 +36,14 @@ struct SceneObject {
   std::string name;       // the object's name in Blender
   std::string instancer;  // "" unless it comes from a collection or geometry-nodes instance
   std::string type;       // MESH, CURVE, FONT, SURFACE, META
-  int mesh = -1;          // index into Survey::meshes
+  int mesh = -1;          // index into SceneSurvey::meshes
   Mat44 to_world;         // row-vector convention
   std::vector<std::string> slots;  // material name of each slot, "" for an empty one
   std::string light_group;         // names the light-linking collections; "" when there are none
   bool visible_to_camera = true;
 };
 
-struct Survey {
+struct SceneSurvey {
   std::string scene_file, scene_name;
   std::string blender_version;
   std::vector<Mesh> meshes;

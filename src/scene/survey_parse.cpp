@@ -57,13 +57,13 @@ LightInfo read_light(const json& entry) {
   return light;
 }
 
-void read_world(const json& entry, Survey& survey) {
+void read_world(const json& entry, SceneSurvey& survey) {
   survey.world = entry.at("kind").get<std::string>();
   survey.world_strength = entry.at("strength").get<double>();
   survey.world_color = entry.at("color").get<std::array<double, 3>>();
 }
 
-void read_objects(const json& content, Survey& survey) {
+void read_objects(const json& content, SceneSurvey& survey) {
   std::set<std::string> keys;
   for (const json& entry : content.at("objects")) {
     survey.objects.push_back(read_object(entry, content.at("meshes").size()));
@@ -73,7 +73,7 @@ void read_objects(const json& content, Survey& survey) {
   }
 }
 
-void read_meshes(const json& content, Blob& data, Survey& survey) {
+void read_meshes(const json& content, Blob& data, SceneSurvey& survey) {
   for (const json& entry : content.at("meshes")) {
     const int index = static_cast<int>(survey.meshes.size());
     const auto owner = [&]() -> std::string {  // users know their objects, not the meshes
@@ -88,7 +88,7 @@ void read_meshes(const json& content, Blob& data, Survey& survey) {
   }
 }
 
-Survey read_content(const json& content, const fs::path& folder) {
+SceneSurvey read_content(const json& content, const fs::path& folder) {
   const std::string data = read_data(data_file(content, folder));
   if (data.size() != count_at(content, "data_bytes")) {
     fail(ExitCode::invalid_input, "{}: survey.bin has {} bytes, {} were written; is the disk full?",
@@ -115,12 +115,12 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
   return matrix;
 }
 
-Survey parse_survey(const json& content, Blob& data) {
+SceneSurvey parse_survey(const json& content, Blob& data) {
   if (content.at("format") != survey_format || content.at("byte_order") != "little") {
     fail(ExitCode::unsupported, "written by scripts of another rnmbake (format {}, {} endian)",
          brief(content.at("format")), brief(content.at("byte_order")));
   }
-  Survey survey;
+  SceneSurvey survey;
   survey.scene_file = content.at("scene_file").get<std::string>();
   survey.scene_name = content.at("scene_name").get<std::string>();
   survey.blender_version = content.at("blender_version").get<std::string>();
@@ -145,7 +145,7 @@ fs::path data_file(const json& content, const fs::path& folder) {
   return *file;
 }
 
-Survey read_survey(const fs::path& json_file) {
+SceneSurvey read_survey(const fs::path& json_file) {
   const std::string text = read_text(json_file);
   try {
     return read_content(parse_json(text, json_file.string()), json_file.parent_path());

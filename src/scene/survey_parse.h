@@ -9,7 +9,7 @@
 namespace rnmbake {
 
 /// Checks as read_survey() does, the format's number included. Throws nlohmann's exceptions, too.
-[[nodiscard]] Survey parse_survey(const nlohmann::json& content, Blob& data);
+[[nodiscard]] SceneSurvey parse_survey(const nlohmann::json& content, Blob& data);
 
 /// The binary part that `content` names; beside it, and nowhere else.
 [[nodiscard]] std::filesystem::path data_file(const nlohmann::json& content,
@@ -21,6 +21,6 @@ namespace rnmbake {
 /// Reads and checks sizes, indices and finiteness. Throws Error(io) where a file cannot be read, and
 /// Error(invalid_input) naming the object and what is wrong; an object whose mesh has a NaN or infinite
 /// position, UV or matrix is named with its first bad element.
-[[nodiscard]] Survey read_survey(const std::filesystem::path& json_file);
+[[nodiscard]] SceneSurvey read_survey(const std::filesystem::path& json_file);
 
 }  // namespace rnmbake

@@ -11,11 +11,11 @@
 // meet, and lamps, stay each texel's own.
 #pragma once
 
-#include "trace/gather_options.h"
+#include "sampling/batch_statistics.h"
 #include "sampling/cosine_lobes.h"
+#include "trace/gather_options.h"
 #include "trace/path.h"
 #include "trace/texel_samples.h"
-#include "sampling/batch_statistics.h"
 
 #include <cstdint>
 #include <optional>
@@ -31,14 +31,15 @@ class BlockGatherer {
       8;  // for each path: they cost little, and most of the noise is theirs
 
   /// `own`: where self-reflection is to be made; null: nowhere.
-  BlockGatherer(const TraceScene& scene, const Sites& sites, const GatherOptions& options,
+  BlockGatherer(const TraceScene& scene, const TexelSamples& texel_samples, const GatherOptions& options,
                 const OwnSurface* own);
 
   /// Directions, then SH coefficients.
   [[nodiscard]] std::size_t values() const { return directions_ + coefficients_; }
 
   /// One batch: `samples` for each texel. Another seed is an independent batch.
-  void batch(std::span<const TexelSite> block, int samples, std::uint64_t seed, BatchTally& tally);
+  void batch(std::span<const TexelSample> block, int samples, std::uint64_t seed,
+             BatchStatistics& statistics);
 
   /// Since the beginning: rays, and of each texel's first rays those that met a back face.
   [[nodiscard]] std::int64_t rays() const { return rays_; }
@@ -46,45 +47,46 @@ class BlockGatherer {
 
  private:
   /// What one texel has in one round.
-  struct Here {
+  struct PathState {
     Vec3 weights, position, face;
     Frame frame;           // orthonormal; its normal is the shading normal
-    float gap = 0;         // how far it is off the surface
+    float ray_offset = 0;  // how far it is off the surface
     Vec3* sums = nullptr;  // of this texel in the tally
   };
-  struct Found {
+  struct SharedVertex {
     Vec3 position, face, target;  // target: where rays to it end, just off the surface
     Vec3 radiance{0, 0, 0};       // sent back, over the probability to stay there; 0: nothing to share
     Visibility way;               // from the finder
   };
 
-  void set_out(std::size_t i, const TexelSite& texel, Sampler& sampler);
+  void begin_path(std::size_t i, const TexelSample& texel, Sampler& sampler);
   void look_around(std::size_t i);
-  void sample_lamps(std::size_t i, const TexelSite& texel, std::uint64_t seed, int sample);
-  void shoot(std::size_t i, Sampler& sampler);
+  void sample_lamps(std::size_t i, const TexelSample& texel, std::uint64_t seed, int sample);
+  void trace_path(std::size_t i, Sampler& sampler);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
-  void add_below(std::size_t i, const TexelSite& texel, const LightSample& light);
+  void add_below(std::size_t i, const TexelSample& texel, const LightSample& light);
 
   /// Few enough for a lobe each.
   [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
   /// From where light counts: over the face, or (zero) from everywhere.
   [[nodiscard]] Vec3 horizon(std::size_t i) const {
-    return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : here_[i].face;
+    return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : states_[i].face;
   }
 
   const TraceScene& scene_;
-  const Sites& sites_;
+  const TexelSamples& texel_samples_;
   const GatherOptions& options_;
   const OwnSurface* own_;  // null: no faults
   std::optional<Recipe> recipe_;
   PathOptions path_;
   std::size_t directions_, coefficients_;
-  bool framed_;             // whether `Here` needs its frame
-  std::vector<Here> here_;  // [texels + lamp_samples]: the last are where one texel looks at lamps from
+  bool framed_;  // whether `PathState` needs its frame
+  std::vector<PathState>
+      states_;  // [texels + lamp_samples]: the last are where one texel looks at lamps from
   std::vector<Lobes> lobes_;
   std::vector<Vec3> normals_;  // [texels + lamp_samples][directions], world space
-  std::vector<Found> found_;
+  std::vector<SharedVertex> shared_vertices_;
   std::int64_t rays_ = 0;
   std::vector<std::int64_t> back_faces_;
 };

@@ -23,11 +23,11 @@ constexpr std::size_t texels_at_once = 1 << 17;  // of targets that are worked o
 struct Block {
   std::size_t first = 0, count = 0;  // in Job::texels_
   int batch_samples = 1, batches = 0;
-  std::unique_ptr<BatchTally> tally;
+  std::unique_ptr<BatchStatistics> statistics;
   std::int64_t rays = 0;
   std::vector<std::int64_t> back_faces;
 
-  [[nodiscard]] std::int64_t samples() const { return std::int64_t(tally->batches()) * batch_samples; }
+  [[nodiscard]] std::int64_t samples() const { return std::int64_t(statistics->batches()) * batch_samples; }
 };
 
 /// One target at work.
@@ -38,9 +38,10 @@ class Job {
         index_(index),
         target_(target),
         options_(options),
-        sites_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
+        texel_samples_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
     if (options.faults.any()) own_.emplace(scene, target);
-    for (const TexelSite& site : sites_.texels()) (is_black(site) ? black_ : texels_).push_back(site);
+    for (const TexelSample& site : texel_samples_.texels())
+      (is_black(site) ? black_ : texels_).push_back(site);
     for (std::size_t first = 0; first < texels_.size(); first += BlockGatherer::texels) {
       blocks_.push_back({first, std::min(BlockGatherer::texels, texels_.size() - first), 1, 0, {}, 0, {}});
     }
@@ -53,14 +54,15 @@ class Job {
   /// Takes a block as far as its plan says. `stage` separates the noise of the pilot from what counts.
   /// `go_on` is asked after each batch, with the share of this work that the batch was.
   void work(Block& block, std::uint64_t stage, const std::function<bool(double)>& go_on) const {
-    BlockGatherer gatherer(scene_, sites_, options_, own_ ? &*own_ : nullptr);
-    if (!block.tally) block.tally = std::make_unique<BatchTally>(block.count, gatherer.values());
+    BlockGatherer gatherer(scene_, texel_samples_, options_, own_ ? &*own_ : nullptr);
+    if (!block.statistics)
+      block.statistics = std::make_unique<BatchStatistics>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
     const std::span texels(&texels_[block.first], block.count);
-    const double share = 1.0 / std::max(1, block.batches - block.tally->batches());
-    while (block.tally->batches() < block.batches) {
-      const auto number = static_cast<std::uint64_t>(block.tally->batches());
-      gatherer.batch(texels, block.batch_samples, hash_of(seed, number), *block.tally);
+    const double share = 1.0 / std::max(1, block.batches - block.statistics->batches());
+    while (block.statistics->batches() < block.batches) {
+      const auto number = static_cast<std::uint64_t>(block.statistics->batches());
+      gatherer.batch(texels, block.batch_samples, hash_of(seed, number), *block.statistics);
       if (!go_on(share)) return;
     }
     block.rays += gatherer.rays();
@@ -88,7 +90,7 @@ class Job {
     }
     const double wanted = sum / (covered() * options_.error * options_.error);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      blocks_[b].tally.reset();
+      blocks_[b].statistics.reset();
       plan(blocks_[b], std::max<std::int64_t>(pilot_samples, std::llround(std::ceil(noise[b] * wanted))));
     }
   }
@@ -118,7 +120,7 @@ class Job {
       direction.standard_error = image(3);
     }
     for (int c = 0; c < options_.sh_order * options_.sh_order; ++c) out.sh.push_back(image(3));
-    for (const TexelSite& site : black_) {
+    for (const TexelSample& site : black_) {
       out.coverage.texel(site.x, site.y)[0] = 1;
       out.validity.texel(site.x, site.y)[0] = 1;
     }
@@ -131,34 +133,34 @@ class Job {
 
  private:
   /// Of a surface without a diffuse closure the recipe bakes nothing.
-  [[nodiscard]] bool is_black(const TexelSite& site) const {
+  [[nodiscard]] bool is_black(const TexelSample& site) const {
     return options_.faults.no_diffuse && own_->is_black(site.triangle);
   }
 
   void write(const Block& block, Gathered& out) const {
-    const auto put = [](FloatImage& image, const TexelSite& site, const Vec3& value) {
+    const auto put = [](FloatImage& image, const TexelSample& site, const Vec3& value) {
       std::copy_n(&value.x, 3, image.texel(site.x, site.y).begin());
     };
     out.paths += block.samples() * std::int64_t(block.count);
     out.rays += block.rays;
     for (std::size_t i = 0; i < block.count; ++i) {
-      const TexelSite& site = texels_[block.first + i];
+      const TexelSample& site = texels_[block.first + i];
       out.coverage.texel(site.x, site.y)[0] = 1;
       out.validity.texel(site.x, site.y)[0] =
           1 - static_cast<float>(double(block.back_faces[i]) / double(block.samples()));
       for (std::size_t k = 0; k < out.directions.size(); ++k) {
-        const Vec3 square = block.tally->squared_error(i, k);
-        put(out.directions[k].radiance, site, block.tally->mean(i, k));
+        const Vec3 square = block.statistics->squared_error(i, k);
+        put(out.directions[k].radiance, site, block.statistics->mean(i, k));
         put(out.directions[k].standard_error, site,
             {std::sqrt(square.x), std::sqrt(square.y), std::sqrt(square.z)});
       }
       for (std::size_t c = 0; c < out.sh.size(); ++c) {
-        put(out.sh[c], site, block.tally->mean(i, out.directions.size() + c));
+        put(out.sh[c], site, block.statistics->mean(i, out.directions.size() + c));
       }
     }
     const double share = double(block.count) / covered();
     for (std::size_t k = 0; k < out.directions.size(); ++k) {
-      const Vec3 mean = block.tally->whole_mean(k), square = block.tally->whole_squared_error(k);
+      const Vec3 mean = block.statistics->whole_mean(k), square = block.statistics->whole_squared_error(k);
       for (int c = 0; c < 3; ++c) {
         out.directions[k].mean[c] += share * mean[c];
         out.directions[k].mean_error[c] += share * share * square[c];  // squared until all blocks are in
@@ -166,13 +168,13 @@ class Job {
     }
   }
 
-  [[nodiscard]] double covered() const { return std::max(1.0, double(sites_.texels().size())); }
+  [[nodiscard]] double covered() const { return std::max(1.0, double(texel_samples_.texels().size())); }
 
   [[nodiscard]] std::vector<double> direction_means() const {
     std::vector<double> means(options_.directions.size());
     for (const Block& block : blocks_) {
       for (std::size_t k = 0; k < means.size(); ++k) {
-        const Vec3 mean = block.tally->whole_mean(k);
+        const Vec3 mean = block.statistics->whole_mean(k);
         means[k] += double(mean.x + mean.y + mean.z) / 3 * double(block.count) / covered();
       }
     }
@@ -184,7 +186,7 @@ class Job {
   [[nodiscard]] static double relative_square(const Block& block, std::size_t k, double mean) {
     double sum = 0;
     for (std::size_t i = 0; i < block.count; ++i) {
-      const Vec3 square = block.tally->squared_error(i, k);
+      const Vec3 square = block.statistics->squared_error(i, k);
       sum += double(square.x + square.y + square.z) / 3;
     }
     return mean > 0 ? sum / (mean * mean) : 0;
@@ -206,9 +208,9 @@ class Job {
   std::size_t index_;
   const GatherTarget& target_;
   const GatherOptions& options_;
-  Sites sites_;
+  TexelSamples texel_samples_;
   std::optional<OwnSurface> own_;
-  std::vector<TexelSite> texels_, black_;
+  std::vector<TexelSample> texels_, black_;
   std::vector<Block> blocks_;
 };
 

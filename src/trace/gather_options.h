@@ -34,7 +34,7 @@ struct RecipeFaults {
 
 struct GatherTarget {
   const Surface* surface = nullptr;
-  std::size_t object = 0;  // index into Survey::objects
+  std::size_t object = 0;  // index into SceneSurvey::objects
   int width = 0, height = 0;
 };
 
@@ -49,7 +49,7 @@ struct GatherOptions {
   int bounces = -1;   // surfaces that a path may bounce off after the texel's own; -1: no limit
   std::uint64_t seed = 0;
   int threads = 0;                                 // 0: all cores
-  bool light_sampling = true, chance_hits = true;  // the two ways to find light; off only to test the other
+  bool light_sampling = true, sample_bsdf = true;  // the two ways to find light; off only to test the other
   bool reuse = true;                               // texels share the ends of their paths (trace/reuse.h)
   RecipeFaults faults;
   std::string blender_version;  // whose faults

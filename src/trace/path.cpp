@@ -23,8 +23,8 @@ struct Reflector {
   Reflector(const Vertex& vertex, const PathOptions& options) : closure{vertex.normal, vertex.normal} {
     if (options.own == nullptr || !options.own->holds(vertex)) return;
     recipe = options.recipe;
-    closure = recipe->closure(options.own->direction(vertex, options.basis), vertex.normal, vertex.face,
-                              vertex.towards);
+    closure =
+        recipe->closure(options.own->direction(vertex, options.basis), vertex.normal, vertex.face, vertex.wo);
   }
   [[nodiscard]] float cosine(const Vec3& direction) const {
     return recipe == nullptr ? closure.normal.dot(direction) : recipe->cosine(closure, direction);
@@ -43,11 +43,12 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   if (!(light.pdf > 0) || !(cosine > 0) || !counts || bounces > light.max_bounces) return Vec3(0);
   ++rays;
   const Vec3 start = above ? vertex.start() : options.own->start_below(vertex, light.direction);
-  const Visibility left = scene.visibility({start, light.direction, short_of(light.distance, vertex.gap)});
+  const Visibility left =
+      scene.visibility({start, light.direction, shadow_tmax(light.distance, vertex.ray_offset)});
   if (left.blocked()) return Vec3(0);
   const float other = reflector.closure.normal.dot(light.direction) * inv_pi;
   float share = 1;
-  if (light.chance_hits && options.chance_hits) {
+  if (light.sample_bsdf && options.sample_bsdf) {
     share = above ? balance(light.pdf, other) : power(light.pdf, other);
   }
   return light.radiance * (cosine * inv_pi * share / light.pdf) * left.transmittance;
@@ -60,7 +61,7 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
   const Lights& lights = scene.lights();
   Vec3 sum(0), throughput(1);
   for (int bounce = 0; options.bounces < 0 || bounce < options.bounces; ++bounce) {
-    throughput *= scene.looks().albedo(vertex.look, vertex.uv);
+    throughput *= scene.materials().albedo(vertex.material, vertex.uv);
     const float survival = bounce < first_roulette ? 1 : std::min(0.98F, largest(throughput));
     if (!(largest(throughput) > 0)) break;
     const Reflector reflector(vertex, options);
@@ -77,19 +78,19 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     if (!(direction.dot(vertex.face) > 0)) break;  // under the face
     const float pdf = direction.dot(normal) * inv_pi;
     if (reflector.recipe != nullptr) throughput *= reflector.cosine(direction) * inv_pi / pdf;
-    const auto by_chance = [&](float light_pdf) {
-      return chance_share(options.light_sampling, options.chance_hits, pdf, light_pdf);
+    const auto by_bsdf = [&](float light_pdf) {
+      return mis_weight(options.light_sampling, options.sample_bsdf, pdf, light_pdf);
     };
     const Ray ray{vertex.start(), direction, infinity};
     ++rays;
-    const Arrival next = follow(scene, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
+    const PathHit next = trace_through(scene, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
       const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
-      sum += throughput * radiance * by_chance(other);
+      sum += throughput * radiance * by_bsdf(other);
     });
     throughput *= next.weight();
     if (!next.met) {
       const float other = lights.world_pdf(ray.origin, normal, direction);
-      sum += throughput * lights.world(direction) * by_chance(other);
+      sum += throughput * lights.world(direction) * by_bsdf(other);
       break;
     }
     vertex = vertex_at(scene, ray, next.hit);

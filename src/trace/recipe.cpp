@@ -13,17 +13,17 @@ namespace {
 /// Bends `n` towards the face until the mirror image of `towards` is at least a little above the face: what
 /// Cycles did to every closure before 3.6. The bent normal lies in the plane of `n` and the face's normal;
 /// with the height of the mirrored direction fixed, its squared height solves a quadratic equation.
-Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& towards) {
-  const float up = towards.dot(face), least = std::min(0.9F * up, 0.01F);
+Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& wo) {
+  const float up = wo.dot(face), least = std::min(0.9F * up, 0.01F);
   const auto mirrored_height = [&](float along, float height, float side) {
     return 2 * (along * side + height * up) * height - up;
   };
-  if (2 * n.dot(towards) * n.dot(face) - up >= least) return n;
+  if (2 * n.dot(wo) * n.dot(face) - up >= least) return n;
 
   const Vec3 across = n - face * n.dot(face);
   if (!(across.length2() > 0)) return face;
   const Vec3 x = across.normalized();
-  const float side = towards.dot(x), a = side * side + up * up;
+  const float side = wo.dot(x), a = side * side + up * up;
   const float root = std::sqrt(std::max(0.0F, side * side * (a - least * least))), middle = up * least + a;
   Vec3 best = face;
   float lowest = 2;
@@ -38,9 +38,9 @@ Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& towards) {
   return best;
 }
 
-bool reflects_nothing(const Exchange& scene, const Look& look) {
-  if (look.albedo_picture < 0) return look.albedo == Vec3(0);
-  const auto& texels = scene.pictures[static_cast<std::size_t>(look.albedo_picture)].texels;
+bool reflects_nothing(const DiffuseScene& scene, const SurfaceMaterial& material) {
+  if (material.albedo_picture < 0) return material.albedo == Vec3(0);
+  const auto& texels = scene.pictures[static_cast<std::size_t>(material.albedo_picture)].texels;
   return std::all_of(texels.begin(), texels.end(), [](const Vec3& texel) { return texel == Vec3(0); });
 }
 
@@ -57,8 +57,8 @@ bool is_at_least(const std::string& version, int major, int minor) {
 Recipe::Recipe(const RecipeFaults& faults, const std::string& blender_version)
     : faults_(faults), microfacets_(is_at_least(blender_version, 4, 5)) {}
 
-Closure Recipe::closure(const Vec3& bent, const Vec3& smooth, const Vec3& face, const Vec3& towards) const {
-  return {faults_.tilt_clamp ? tilt_clamped(bent, face, towards) : bent, smooth, true};
+Closure Recipe::closure(const Vec3& bent, const Vec3& smooth, const Vec3& face, const Vec3& wo) const {
+  return {faults_.tilt_clamp ? tilt_clamped(bent, face, wo) : bent, smooth, true};
 }
 
 float Recipe::shadowing(const Closure& closure, const Vec3& direction) const {
@@ -75,14 +75,15 @@ float Recipe::shadowing(const Closure& closure, const Vec3& direction) const {
 
 OwnSurface::OwnSurface(const TraceScene& scene, const GatherTarget& target)
     : scene_(scene), surface_(*target.surface), object_(static_cast<std::uint32_t>(target.object)) {
-  const Exchange& exchange = scene.exchange();
-  const Mesh& mesh = exchange.survey.mesh_of(exchange.survey.objects[target.object]);
+  const DiffuseScene& diffuse_scene = scene.diffuse_scene();
+  const Mesh& mesh = diffuse_scene.survey.mesh_of(diffuse_scene.survey.objects[target.object]);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const std::uint32_t source = surface_.triangles[t].source;
     if (source >= of_source_.size()) of_source_.resize(std::size_t(source) + 1, absent);
     of_source_[source] = static_cast<std::uint32_t>(t);
-    const Look& look = exchange.look(target.object, mesh.polygon_slot[mesh.triangle_polygon[source]]);
-    black_.push_back(reflects_nothing(exchange, look));
+    const SurfaceMaterial& material =
+        diffuse_scene.material(target.object, mesh.polygon_slot[mesh.triangle_polygon[source]]);
+    black_.push_back(reflects_nothing(diffuse_scene, material));
   }
 }
 
@@ -105,9 +106,9 @@ Vec3 OwnSurface::start_below(std::uint32_t triangle, const Vec3& weights, const 
     normal += smooth.normals[k] * weights[static_cast<int>(k)];
     curved |= corner.frame.normal.dot(flat.normal) < 1 - 1e-6F;
   }
-  if (curved && normal.dot(direction) > 0) return start + bulge(smooth, weights);
+  if (curved && normal.dot(direction) > 0) return start + terminator_offset(smooth, weights);
   // Cycles passes by the triangle that it starts from.
-  return start - flat.normal * (side * 2 * (rounding_gap(start) + flat.height));
+  return start - flat.normal * (side * 2 * (ray_offset_at(start) + flat.height));
 }
 
 Vec3 OwnSurface::start_below(const Vertex& vertex, const Vec3& direction) const {

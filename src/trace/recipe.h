@@ -30,8 +30,7 @@ class Recipe {
   Recipe(const RecipeFaults& faults, const std::string& blender_version);
 
   /// `bent`: the basis normal in world space; `face`: geometric; `towards`: where the place is seen from.
-  [[nodiscard]] Closure closure(const Vec3& bent, const Vec3& smooth, const Vec3& face,
-                                const Vec3& towards) const;
+  [[nodiscard]] Closure closure(const Vec3& bent, const Vec3& smooth, const Vec3& face, const Vec3& wo) const;
 
   /// Clamped cosine of the closure, bump shadowing included.
   [[nodiscard]] float cosine(const Closure& closure, const Vec3& direction) const {

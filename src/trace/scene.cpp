@@ -28,7 +28,7 @@ float largest(const Vec3& c) {
 
 /// Of the paths that come to a place, so many go on through it: as much as it lets through, of what it does
 /// not swallow.
-float onward(const Vec3& transmittance, const Vec3& albedo) {
+float transmit_probability(const Vec3& transmittance, const Vec3& albedo) {
   const float through = largest(transmittance);
   return through > 0 ? through / (through + largest(albedo)) : 0;
 }
@@ -36,11 +36,11 @@ float onward(const Vec3& transmittance, const Vec3& albedo) {
 }  // namespace
 
 /// A ray on its way; Embree's filter finds it in the query's context.
-struct TraceScene::Journey {
+struct TraceScene::TransparencyQuery {
   const TraceScene& scene;
-  std::vector<Crossing>* crossings = nullptr;  // what is on the way, or ...
-  Visibility visibility;                       // ... what is left at its end
-  std::vector<float> seams;                    // distances of hits on edges
+  std::vector<TransparentHit>* transparent_hits = nullptr;  // what is on the way, or ...
+  Visibility visibility;                                    // ... what is left at its end
+  std::vector<float> seams;                                 // distances of hits on edges
 
   /// A ray along the common edge of two triangles meets both.
   [[nodiscard]] bool is_known(const Hit& hit) {
@@ -53,23 +53,23 @@ struct TraceScene::Journey {
 
   /// Whether the ray goes on.
   [[nodiscard]] bool pass(const Hit& hit) {
-    const std::uint32_t look = scene.triangles_.look[hit.triangle];
+    const std::uint32_t material = scene.triangles_.material[hit.triangle];
     const Vec2 uv = mixed(scene.triangles_.uv, hit);
-    const Vec3 transmittance = scene.looks_.transmittance(look, uv);
+    const Vec3 transmittance = scene.materials_.transmittance(material, uv);
     if (!(largest(transmittance) > 0)) return false;
     if (is_known(hit)) return true;
-    const float share = onward(transmittance, scene.looks_.albedo(look, uv));
-    if (crossings != nullptr) {
-      crossings->push_back({hit, transmittance, share});
+    const float share = transmit_probability(transmittance, scene.materials_.albedo(material, uv));
+    if (transparent_hits != nullptr) {
+      transparent_hits->push_back({hit, transmittance, share});
     } else {
       visibility.transmittance *= transmittance;
-      visibility.onward *= share;
+      visibility.transmit_probability *= share;
     }
     return true;
   }
 
   static void filter(const RTCFilterFunctionNArguments* arguments) {
-    auto* journey = static_cast<Journey*>(embree_user(*arguments));
+    auto* journey = static_cast<TransparencyQuery*>(embree_user(*arguments));
     if (journey == nullptr || arguments->valid[0] == 0) return;  // as if it were opaque
     const RTCHit at = rtcGetHitFromHitN(arguments->hit, arguments->N, 0);
     const Hit hit{journey->scene.accelerator_->triangle(at.geomID, at.primID), at.u, at.v,
@@ -78,27 +78,29 @@ struct TraceScene::Journey {
   }
 };
 
-TraceScene::TraceScene(const Exchange& scene, const std::string& blender_version)
-    : exchange_(scene),
+TraceScene::TraceScene(const DiffuseScene& scene, const std::string& blender_version)
+    : diffuse_scene_(scene),
       origin_(middle_of(scene)),
       triangles_(world_triangles(scene, origin_)),
-      looks_(scene),
+      materials_(scene),
       lights_(scene, triangles_, blender_version, origin_),
-      accelerator_(std::make_unique<Accelerator>(triangles_, looks_, &Journey::filter)) {}
+      accelerator_(std::make_unique<Accelerator>(triangles_, materials_, &TransparencyQuery::filter)) {}
 
 TraceScene::~TraceScene() = default;
 
-bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const {
+bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<TransparentHit>& transparent_hits) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, false});
   RTCRayHit query = embree_ray_hit(ray.origin, ray.direction, ray.to);
   if (accelerator_->see_through()) {
-    crossings.clear();
-    Journey journey{*this, &crossings, {}, {}};
+    transparent_hits.clear();
+    TransparencyQuery journey{*this, &transparent_hits, {}, {}};
     embree_intersect(accelerator_->scene(), query, &journey);
-    std::erase_if(crossings, [&](const Crossing& it) { return it.hit.distance > query.ray.tfar; });
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-      return std::pair(a.hit.distance, a.hit.triangle) < std::pair(b.hit.distance, b.hit.triangle);
-    });
+    std::erase_if(transparent_hits,
+                  [&](const TransparentHit& it) { return it.hit.distance > query.ray.tfar; });
+    std::sort(transparent_hits.begin(), transparent_hits.end(),
+              [](const TransparentHit& a, const TransparentHit& b) {
+                return std::pair(a.hit.distance, a.hit.triangle) < std::pair(b.hit.distance, b.hit.triangle);
+              });
   } else {
     embree_intersect(accelerator_->scene(), query);
   }
@@ -114,7 +116,7 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<Crossing>& cros
 Visibility TraceScene::visibility(const Ray& ray) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
   RTCRay query = embree_ray(ray.origin, ray.direction, ray.to);
-  Journey journey{*this, nullptr, {}, {}};
+  TransparencyQuery journey{*this, nullptr, {}, {}};
   if (accelerator_->see_through()) {
     embree_occluded(accelerator_->scene(), query, &journey);
   } else {
@@ -193,13 +195,14 @@ Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
   const float length = smooth.length();
   vertex.normal = length > 0 ? smooth / (vertex.back ? -length : length) : vertex.face;
   const Vec3* corners = &triangles.position[3 * std::size_t(hit.triangle)];
-  vertex.gap = std::max({rounding_gap(corners[0]), rounding_gap(corners[1]), rounding_gap(corners[2])});
-  vertex.towards = -ray.direction;
+  vertex.ray_offset =
+      std::max({ray_offset_at(corners[0]), ray_offset_at(corners[1]), ray_offset_at(corners[2])});
+  vertex.wo = -ray.direction;
   vertex.b1 = hit.b1;
   vertex.b2 = hit.b2;
   vertex.uv = picture_uv(scene, hit);
   vertex.triangle = hit.triangle;
-  vertex.look = triangles.look[hit.triangle];
+  vertex.material = triangles.material[hit.triangle];
   return vertex;
 }
 

@@ -33,7 +33,7 @@ float room(const SmoothTriangle& triangle, const Vec3& place) {
 
 }  // namespace
 
-Vec3 bulge(const SmoothTriangle& triangle, const Vec3& weights) {
+Vec3 terminator_offset(const SmoothTriangle& triangle, const Vec3& weights) {
   Vec3 place(0), normal(0);
   for (int k = 0; k < 3; ++k) {
     place += triangle.positions[static_cast<std::size_t>(k)] * weights[k];

@@ -1,4 +1,5 @@
-// trace/shadow_terminator.h - how far the curved surface that a smooth triangle stands for rises off the flat one.
+// trace/shadow_terminator.h - how far the curved surface that a smooth triangle stands for rises off the flat
+// one.
 //
 // Cycles' "shadow terminator geometry offset", 0.1 unless an object says otherwise, lets rays to lights start
 // up there where they leave at a grazing angle or, as the recipe lets them, under the face. The latter may
@@ -17,6 +18,6 @@ struct SmoothTriangle {
 };
 
 /// From the flat triangle to the curved surface, along the interpolated normal; `weights`: barycentric.
-[[nodiscard]] Vec3 bulge(const SmoothTriangle& triangle, const Vec3& weights);
+[[nodiscard]] Vec3 terminator_offset(const SmoothTriangle& triangle, const Vec3& weights);
 
 }  // namespace rnmbake

@@ -1,7 +1,7 @@
 #include "trace/texel_samples.h"
 
-#include "scene/uv_raster.h"
 #include "sampling/sampler.h"
+#include "scene/uv_raster.h"
 
 #include <algorithm>
 #include <bit>
@@ -44,7 +44,8 @@ Vec2 another(const Vec2& u) {
 
 }  // namespace
 
-Sites::Sites(const Surface& surface, int width, int height, Footprint footprint, PastEdge past_edge)
+TexelSamples::TexelSamples(const Surface& surface, int width, int height, Footprint footprint,
+                           PastEdge past_edge)
     : surface_(surface), past_edge_(past_edge) {
   std::vector<Vec2> uv;
   uv.reserve(3 * surface.triangles.size());
@@ -61,7 +62,7 @@ Sites::Sites(const Surface& surface, int width, int height, Footprint footprint,
     }
   }
   std::sort(texels_.begin(), texels_.end(),
-            [](const TexelSite& a, const TexelSite& b) { return morton(a.x, a.y) < morton(b.x, b.y); });
+            [](const TexelSample& a, const TexelSample& b) { return morton(a.x, a.y) < morton(b.x, b.y); });
 
   const float side = footprint_side(footprint);
   slopes_.resize(surface.triangles.size());
@@ -74,7 +75,7 @@ Sites::Sites(const Surface& surface, int width, int height, Footprint footprint,
   }
 }
 
-Vec3 Sites::mirrored(const TexelSite& texel, const Vec2& u) const {
+Vec3 TexelSamples::mirrored(const TexelSample& texel, const Vec2& u) const {
   const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
   // Cycles' order: the first corner's weight within 1, the second's within what is left, the third's the
   // rest.
@@ -82,7 +83,7 @@ Vec3 Sites::mirrored(const TexelSite& texel, const Vec2& u) const {
   return {b0, b1, std::max(0.0F, 1 - b0 - b1)};
 }
 
-Vec3 Sites::retried(const TexelSite& texel, Vec2 u) const {
+Vec3 TexelSamples::retried(const TexelSample& texel, Vec2 u) const {
   for (int i = 0; i < most_tries; ++i) {
     const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
     const float b0 = 1 - weights.x - weights.y;
@@ -92,7 +93,7 @@ Vec3 Sites::retried(const TexelSite& texel, Vec2 u) const {
   return {1 - texel.b1 - texel.b2, texel.b1, texel.b2};
 }
 
-Place Sites::place(const TexelSite& texel, const Vec2& u) const {
+Place TexelSamples::place(const TexelSample& texel, const Vec2& u) const {
   Place place;
   place.weights = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
   const Vec3& share = place.weights;

@@ -22,7 +22,7 @@ struct Seen {
 
 /// Everything on the way that shows itself to cameras, to where a path stays.
 Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Sampler& sampler) {
-  const auto& objects = scene.exchange().survey.objects;
+  const auto& objects = scene.diffuse_scene().survey.objects;
   const auto is_shown = [&](std::uint32_t triangle) {
     return bool(objects[scene.triangles().object[triangle]].visible_to_camera);
   };
@@ -30,7 +30,7 @@ Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Samp
   Vec3 weight(1);
   while (true) {
     const auto glow = [&](const Hit&, const Vec3& radiance) { seen.radiance += weight * radiance; };
-    const Arrival end = follow(scene, ray, sampler, glow, is_shown);
+    const PathHit end = trace_through(scene, ray, sampler, glow, is_shown);
     weight *= end.weight();
     if (!end.met) {
       seen.radiance += weight * scene.lights().world(ray.direction);
@@ -40,12 +40,12 @@ Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Samp
     const Vertex vertex = vertex_at(scene, ray, end.hit);
     if (is_shown(end.hit.triangle)) {
       seen.radiance += weight * reflected(vertex, sampler);
-      seen.albedo = weight * scene.looks().albedo(vertex.look, vertex.uv);
+      seen.albedo = weight * scene.materials().albedo(vertex.material, vertex.uv);
       seen.surface = 1;
       return seen;
     }
     // A step along the ray as well: with a grazing ray the way through the face is too short to count.
-    const float step = std::max(vertex.gap, 1e-6F * end.hit.distance);
+    const float step = std::max(vertex.ray_offset, 1e-6F * end.hit.distance);
     ray.origin = vertex.start_below() + ray.direction * step;
   }
 }

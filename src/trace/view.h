@@ -4,8 +4,8 @@
 
 #include "base/math.h"
 #include "image/float_image.h"
-#include "scene/diffuse_scene.h"
 #include "sampling/sampler.h"
+#include "scene/diffuse_scene.h"
 #include "trace/scene.h"
 
 #include <cstdint>

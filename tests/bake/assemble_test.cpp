@@ -40,17 +40,17 @@ struct Suns {
 };
 
 /// What Blender would bake for a tile: for every texel centre the receiver's interpolated normal.
-FloatImage bake(const Tile& tile, const Target& target, const Suns& light) {
+FloatImage bake(const AtlasRect& rect, const Target& target, const Suns& light) {
   std::vector<Vec2> uv;
-  for (const ReceiverCorner& corner : tile.sheet.corners) uv.push_back(corner.uv);
+  for (const ReceiverCorner& corner : rect.pass.corners) uv.push_back(corner.uv);
   const UvRaster raster = rasterize(uv, target.width, target.height);
-  FloatImage picture(tile.size.width, tile.size.height, 4);
-  const int top = target.height - tile.y - tile.size.height;
-  for (int y = 0; y < tile.size.height; ++y) {
-    for (int x = 0; x < tile.size.width; ++x) {
-      const TexelOwner& owner = raster.at(tile.x + x, top + y);
+  FloatImage picture(rect.size.width, rect.size.height, 4);
+  const int top = target.height - rect.y - rect.size.height;
+  for (int y = 0; y < rect.size.height; ++y) {
+    for (int x = 0; x < rect.size.width; ++x) {
+      const TexelOwner& owner = raster.at(rect.x + x, top + y);
       if (owner.triangle < 0) continue;
-      const auto* k = &tile.sheet.corners[3 * std::size_t(owner.triangle)];
+      const auto* k = &rect.pass.corners[3 * std::size_t(owner.triangle)];
       const Vec3 n =
           k[0].normal * (1 - owner.b1 - owner.b2) + k[1].normal * owner.b1 + k[2].normal * owner.b2;
       const Vec3 value = light.clipped(n.normalized());
@@ -72,14 +72,14 @@ struct Scene {
     std::vector<BasisDirection> turned = bases;
     for (BasisDirection& basis : turned) basis.direction = in_frame(basis.direction, target);
     Plan plan;
-    add_receiver_units(plan, 0, target, make_sheets(surface, turned, horizon), bases, {});
-    std::vector<const Tile*> tiles;
+    add_receiver_tasks(plan, 0, target, make_receiver_passes(surface, turned, horizon), bases, {});
+    std::vector<const AtlasRect*> rects;
     std::vector<FloatImage> pictures;
-    for (const Tile& tile : plan.tiles) {
-      tiles.push_back(&tile);
-      pictures.push_back(bake(tile, target, light));
+    for (const AtlasRect& rect : plan.rects) {
+      rects.push_back(&rect);
+      pictures.push_back(bake(rect, target, light));
     }
-    return assemble(target, tiles, pictures, bases, &surface, frames);
+    return assemble(target, rects, pictures, bases, &surface, frames);
   }
 };
 
@@ -122,7 +122,7 @@ const double bend = std::sin(0.1 * pi / 180);  // of the interpolation by parts 
 
 TEST(Assemble, CopiesTilesToTheirPlace) {
   const Target target = make_target("thing", 8, 8);
-  Tile tile{0, {Sheet::Role::basis, 0, {}}, 2, 1, {3, 2}};  // rows count from the bottom
+  AtlasRect rect{0, {ReceiverPass::Role::basis, 0, {}}, 2, 1, {3, 2}};  // rows count from the bottom
   FloatImage picture(3, 2, 4);
   for (int y = 0; y < 2; ++y) {
     for (int x = 0; x < 3; ++x) {
@@ -130,7 +130,7 @@ TEST(Assemble, CopiesTilesToTheirPlace) {
       picture.texel(x, y)[3] = x == 2 ? 0.0F : 1.0F;
     }
   }
-  const TargetBakes bakes = assemble(target, {&tile}, {picture}, {flat_direction()}, nullptr, false);
+  const TargetBakes bakes = assemble(target, {&rect}, {picture}, {flat_direction()}, nullptr, false);
   ASSERT_EQ(bakes.bases.size(), 1U);
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) {
@@ -144,17 +144,17 @@ TEST(Assemble, CopiesTilesToTheirPlace) {
 
 TEST(Assemble, RefusesATargetWithoutATexel) {
   const Target target = make_target("thing", 8, 8);
-  const Tile tile{0, {Sheet::Role::basis, 0, {}}, 0, 0, {8, 8}};
+  const AtlasRect rect{0, {ReceiverPass::Role::basis, 0, {}}, 0, 0, {8, 8}};
   const auto text = error_of(ExitCode::tasks_failed, [&] {
-    (void)assemble(target, {&tile}, {FloatImage(8, 8, 4)}, {flat_direction()}, nullptr, false);
+    (void)assemble(target, {&rect}, {FloatImage(8, 8, 4)}, {flat_direction()}, nullptr, false);
   });
   EXPECT_NE(text.find("'thing'"), std::string::npos);
   EXPECT_NE(text.find("--resolution"), std::string::npos);
 }
 
 TEST(Assemble, NeedsTheSurfaceOnlyForTheIdentity) {
-  const Tile basis{0, {Sheet::Role::basis, 0, {}}, 0, 0, {1, 1}};
-  const Tile below{0, {Sheet::Role::below, 0, {}}, 0, 0, {1, 1}};
+  const AtlasRect basis{0, {ReceiverPass::Role::basis, 0, {}}, 0, 0, {1, 1}};
+  const AtlasRect below{0, {ReceiverPass::Role::below, 0, {}}, 0, 0, {1, 1}};
   EXPECT_FALSE(needs_surface({&basis}));
   EXPECT_TRUE(needs_surface({&basis, &below}));
 }

@@ -71,7 +71,7 @@ TEST(Fences, AreHighEnoughFarFromTheOrigin) {
 }
 
 TEST(Fences, BallsHoldTheirLights) {
-  Survey survey;
+  SceneSurvey survey;
   LightInfo area;
   area.type = "AREA";
   area.shape = "RECTANGLE";

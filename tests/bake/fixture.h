@@ -40,9 +40,9 @@ inline double uv_area(const ReceiverCorner* corners) {
   return 0.5 * std::abs(double(a.x) * b.y - double(a.y) * b.x);
 }
 
-inline double uv_area(const Sheet& sheet) {
+inline double uv_area(const ReceiverPass& pass) {
   double sum = 0;
-  for (std::size_t i = 0; i < sheet.corners.size(); i += 3) sum += uv_area(&sheet.corners[i]);
+  for (std::size_t i = 0; i < pass.corners.size(); i += 3) sum += uv_area(&pass.corners[i]);
   return sum;
 }
 
@@ -59,7 +59,8 @@ inline Target make_target(const std::string& key, int width, int height, std::si
 }
 
 /// A sheet of one triangle over the lower left half of the square [low, high]^2.
-inline Sheet sheet_over(float low, float high, Sheet::Role role = Sheet::Role::basis, std::size_t basis = 0) {
+inline ReceiverPass sheet_over(float low, float high, ReceiverPass::Role role = ReceiverPass::Role::basis,
+                               std::size_t basis = 0) {
   const Vec3 up(0, 0, 1);
   return {role,
           basis,
@@ -68,12 +69,12 @@ inline Sheet sheet_over(float low, float high, Sheet::Role role = Sheet::Role::b
            {Vec3(low, high, 0), up, Vec2(low, high)}}};
 }
 
-/// Sheets of a target that needs no identity: one triangle for each basis.
-inline Sheets plain_sheets(std::size_t bases, float low = 0, float high = 1) {
-  Sheets sheets;
+/// ReceiverPasses of a target that needs no identity: one triangle for each basis.
+inline ReceiverPasses plain_sheets(std::size_t bases, float low = 0, float high = 1) {
+  ReceiverPasses passes;
   for (std::size_t b = 0; b < bases; ++b)
-    sheets.sheets.push_back(sheet_over(low, high, Sheet::Role::basis, b));
-  return sheets;
+    passes.passes.push_back(sheet_over(low, high, ReceiverPass::Role::basis, b));
+  return passes;
 }
 
 /// What the action's Error says; fails the test where it throws none or one with another code.

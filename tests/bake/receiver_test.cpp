@@ -11,20 +11,20 @@ namespace rnmbake {
 namespace {
 
 using Horizon = ObjectSettings::Horizon;
-using Role = Sheet::Role;
+using Role = ReceiverPass::Role;
 
 float sine_of(double degrees) {
   return static_cast<float>(std::sin(degrees * pi / 180));
 }
 
-std::size_t count(const Sheets& sheets, Role role) {
-  return static_cast<std::size_t>(std::count_if(sheets.sheets.begin(), sheets.sheets.end(),
-                                                [&](const Sheet& sheet) { return sheet.role == role; }));
+std::size_t count(const ReceiverPasses& passes, Role role) {
+  return static_cast<std::size_t>(std::count_if(passes.passes.begin(), passes.passes.end(),
+                                                [&](const ReceiverPass& pass) { return pass.role == role; }));
 }
 
-const Sheet* find(const Sheets& sheets, Role role, std::size_t basis) {
-  for (const Sheet& sheet : sheets.sheets)
-    if (sheet.role == role && sheet.basis == basis) return &sheet;
+const ReceiverPass* find(const ReceiverPasses& passes, Role role, std::size_t basis) {
+  for (const ReceiverPass& pass : passes.passes)
+    if (pass.role == role && pass.basis == basis) return &pass;
   return nullptr;
 }
 
@@ -119,24 +119,24 @@ TEST(RaiseAbove, ConeIsConvex) {
   }
 }
 
-TEST(Sheets, OfAPlaneAreOneForEachBasis) {
-  const Sheets sheets = make_sheets(flat_square(), flat_and_rnm(), Horizon::identity);
-  ASSERT_EQ(sheets.sheets.size(), 4U);
-  EXPECT_EQ(count(sheets, Role::basis), 4U);
+TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
+  const ReceiverPasses passes = make_receiver_passes(flat_square(), flat_and_rnm(), Horizon::identity);
+  ASSERT_EQ(passes.passes.size(), 4U);
+  EXPECT_EQ(count(passes, Role::basis), 4U);
   for (std::size_t b = 0; b < 4; ++b) {
-    EXPECT_EQ(sheets.sheets[b].basis, b);
-    ASSERT_EQ(sheets.sheets[b].corners.size(), 6U);
-    EXPECT_NEAR(uv_area(sheets.sheets[b]), 1, 1e-6);
-    for (const ReceiverCorner& corner : sheets.sheets[b].corners)
+    EXPECT_EQ(passes.passes[b].basis, b);
+    ASSERT_EQ(passes.passes[b].corners.size(), 6U);
+    EXPECT_NEAR(uv_area(passes.passes[b]), 1, 1e-6);
+    for (const ReceiverCorner& corner : passes.passes[b].corners)
       EXPECT_LT((corner.normal - flat_and_rnm()[b].direction).length(), 1e-5);
   }
-  EXPECT_EQ(sheets.counts.corners, 24U);
-  EXPECT_EQ(sheets.counts.corners_below, 0U);
-  EXPECT_EQ(sheets.counts.triangles, 2U);
-  EXPECT_EQ(sheets.counts.triangles_below, 0U);
+  EXPECT_EQ(passes.counts.corners, 24U);
+  EXPECT_EQ(passes.counts.corners_below, 0U);
+  EXPECT_EQ(passes.counts.triangles, 2U);
+  EXPECT_EQ(passes.counts.triangles_below, 0U);
 }
 
-TEST(Sheets, OfASmoothCubeNeedTheIdentity) {
+TEST(ReceiverPasses, OfASmoothCubeNeedTheIdentity) {
   const Surface cube = smooth_cube();
   const auto bases = flat_and_rnm();
   std::size_t below = 0, triangles = 0;
@@ -149,24 +149,24 @@ TEST(Sheets, OfASmoothCubeNeedTheIdentity) {
     triangles += here > 0 ? 1 : 0;
   }
   ASSERT_GT(below, 0U);
-  const Sheets sheets = make_sheets(cube, bases, Horizon::identity);
-  EXPECT_EQ(sheets.counts.corners, 12U * 3 * 4);
-  EXPECT_EQ(sheets.counts.corners_below, below);
-  EXPECT_EQ(sheets.counts.triangles, 12U);
-  EXPECT_EQ(sheets.counts.triangles_below, triangles);
-  EXPECT_EQ(find(sheets, Role::below, 0), nullptr);  // the flat bake never falls below
-  EXPECT_EQ(count(sheets, Role::moment), 5U);
-  for (std::size_t m = 0; m < 5; ++m) EXPECT_EQ(find(sheets, Role::moment, m)->corners.size(), 3 * triangles);
+  const ReceiverPasses passes = make_receiver_passes(cube, bases, Horizon::identity);
+  EXPECT_EQ(passes.counts.corners, 12U * 3 * 4);
+  EXPECT_EQ(passes.counts.corners_below, below);
+  EXPECT_EQ(passes.counts.triangles, 12U);
+  EXPECT_EQ(passes.counts.triangles_below, triangles);
+  EXPECT_EQ(find(passes, Role::below, 0), nullptr);  // the flat bake never falls below
+  EXPECT_EQ(count(passes, Role::moment), 5U);
+  for (std::size_t m = 0; m < 5; ++m) EXPECT_EQ(find(passes, Role::moment, m)->corners.size(), 3 * triangles);
 }
 
-TEST(Sheets, AreLegalForCyclesEverywhere) {
+TEST(ReceiverPasses, AreLegalForCyclesEverywhere) {
   const Surface cube = smooth_cube();
   for (const Horizon horizon : {Horizon::identity, Horizon::clamp}) {
-    const Sheets sheets = make_sheets(cube, flat_and_rnm(), horizon);
-    for (const Sheet& sheet : sheets.sheets) {
+    const ReceiverPasses passes = make_receiver_passes(cube, flat_and_rnm(), horizon);
+    for (const ReceiverPass& pass : passes.passes) {
       const float least = sine_of(0.05) - 1e-5F;
-      for (std::size_t i = 0; i < sheet.corners.size(); i += 3) {
-        const auto* k = &sheet.corners[i];
+      for (std::size_t i = 0; i < pass.corners.size(); i += 3) {
+        const auto* k = &pass.corners[i];
         const Vec3 across = (k[1].position - k[0].position).cross(k[2].position - k[0].position);
         if (across.length() < 1e-5F) continue;  // a sliver at the cut: no texel fits into it
         const Vec3 face = across.normalized();
@@ -179,18 +179,19 @@ TEST(Sheets, AreLegalForCyclesEverywhere) {
   }
 }
 
-TEST(Sheets, ClampNeedsNothingElse) {
-  const Sheets sheets = make_sheets(smooth_cube(), flat_and_rnm(), Horizon::clamp);
-  EXPECT_EQ(sheets.sheets.size(), 4U);
-  EXPECT_GT(sheets.counts.corners_below, 0U);
-  for (const Sheet& sheet : sheets.sheets) EXPECT_EQ(sheet.corners.size(), 36U);
+TEST(ReceiverPasses, ClampNeedsNothingElse) {
+  const ReceiverPasses passes = make_receiver_passes(smooth_cube(), flat_and_rnm(), Horizon::clamp);
+  EXPECT_EQ(passes.passes.size(), 4U);
+  EXPECT_GT(passes.counts.corners_below, 0U);
+  for (const ReceiverPass& pass : passes.passes) EXPECT_EQ(pass.corners.size(), 36U);
 }
 
-TEST(Sheets, AreNotDividedFinerThanTheMapShows) {
+TEST(ReceiverPasses, AreNotDividedFinerThanTheMapShows) {
   const auto corners = [](const Vec2& map) {
     std::size_t total = 0;
-    for (const Sheet& sheet : make_sheets(smooth_cube(), flat_and_rnm(), Horizon::identity, map).sheets)
-      if (sheet.role != Role::moment) total += sheet.corners.size();
+    for (const ReceiverPass& pass :
+         make_receiver_passes(smooth_cube(), flat_and_rnm(), Horizon::identity, map).passes)
+      if (pass.role != Role::moment) total += pass.corners.size();
     return total;
   };
   const std::size_t fine = corners(Vec2(4096)), coarse = corners(Vec2(0.25F));
@@ -198,7 +199,7 @@ TEST(Sheets, AreNotDividedFinerThanTheMapShows) {
   EXPECT_GE(coarse, 4U * 36);  // what is cut still has all its parts
 }
 
-TEST(Sheets, CutAtTheHorizonCoverTheTriangleOnce) {
+TEST(ReceiverPasses, CutAtTheHorizonCoverTheTriangleOnce) {
   std::mt19937 random(5);
   std::normal_distribution<float> normal;
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -211,12 +212,12 @@ TEST(Sheets, CutAtTheHorizonCoverTheTriangleOnce) {
         floor_triangle({Vec2(uniform(random), uniform(random)), Vec2(uniform(random), uniform(random)),
                         Vec2(uniform(random), uniform(random))},
                        normals));
-    const Sheets sheets = make_sheets(surface, flat_and_rnm(), Horizon::identity);
+    const ReceiverPasses passes = make_receiver_passes(surface, flat_and_rnm(), Horizon::identity);
     const auto& k = surface.triangles[0].corners;
     const ReceiverCorner whole[] = {{{}, {}, k[0].uv}, {{}, {}, k[1].uv}, {{}, {}, k[2].uv}};
     for (std::size_t b = 0; b < 4; ++b) {
-      const Sheet* below = find(sheets, Role::below, b);
-      const double above_area = uv_area(*find(sheets, Role::basis, b));
+      const ReceiverPass* below = find(passes, Role::below, b);
+      const double above_area = uv_area(*find(passes, Role::basis, b));
       const double below_area = below != nullptr ? uv_area(*below) : 0;
       ASSERT_NEAR(above_area + below_area, uv_area(whole), 1e-5);
       cut += above_area > 1e-3 && below_area > 1e-3 ? 1 : 0;
@@ -225,13 +226,13 @@ TEST(Sheets, CutAtTheHorizonCoverTheTriangleOnce) {
   EXPECT_GT(cut, 50);  // the sample holds the case that it is about
 }
 
-TEST(Sheets, AreClippedToTheUnitSquare) {
+TEST(ReceiverPasses, AreClippedToTheUnitSquare) {
   Surface surface;
   surface.triangles.push_back(floor_triangle({Vec2(-1, -1), Vec2(3, -1), Vec2(-1, 3)},
                                              {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)}));
-  const Sheets sheets = make_sheets(surface, {flat_direction()}, Horizon::identity);
-  EXPECT_NEAR(uv_area(sheets.sheets[0]), 1, 1e-5);
-  for (const ReceiverCorner& corner : sheets.sheets[0].corners) {
+  const ReceiverPasses passes = make_receiver_passes(surface, {flat_direction()}, Horizon::identity);
+  EXPECT_NEAR(uv_area(passes.passes[0]), 1, 1e-5);
+  for (const ReceiverCorner& corner : passes.passes[0].corners) {
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_GE(corner.uv[axis], -1e-6);
       EXPECT_LE(corner.uv[axis], 1 + 1e-6);
@@ -240,11 +241,11 @@ TEST(Sheets, AreClippedToTheUnitSquare) {
   }
 }
 
-TEST(Sheets, OfATriangleOutsideTheUnitSquareAreEmpty) {
+TEST(ReceiverPasses, OfATriangleOutsideTheUnitSquareAreEmpty) {
   Surface surface;
   surface.triangles.push_back(
       floor_triangle({Vec2(2, 2), Vec2(3, 2), Vec2(2, 3)}, {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)}));
-  EXPECT_TRUE(make_sheets(surface, {flat_direction()}, Horizon::identity).sheets[0].corners.empty());
+  EXPECT_TRUE(make_receiver_passes(surface, {flat_direction()}, Horizon::identity).passes[0].corners.empty());
 }
 
 }  // namespace

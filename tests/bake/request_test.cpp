@@ -41,12 +41,12 @@ class Requests : public testing::Test {
 
   void add_all() {
     for (std::size_t t = 0; t < targets_.size(); ++t)
-      add_receiver_units(plan_, t, targets_[t], plain_sheets(4, 0.25F, 0.5F), bases_, {});
-    group_units(plan_, BakingSettings::Dispatch::scene);
+      add_receiver_tasks(plan_, t, targets_[t], plain_sheets(4, 0.25F, 0.5F), bases_, {});
+    group_tasks(plan_, BakingSettings::Dispatch::scene);
   }
   [[nodiscard]] BakeContext context() const { return {survey_, targets_, bases_, plan_}; }
 
-  Survey survey_;
+  SceneSurvey survey_;
   std::vector<Target> targets_;
   std::vector<BasisDirection> bases_ = flat_and_rnm();
   Plan plan_;
@@ -55,7 +55,7 @@ class Requests : public testing::Test {
 
 TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
   EXPECT_EQ(request.json.at("recipe"), "receiver");
   EXPECT_EQ(request.json.at("cycles").at("samples"), 256);
   ASSERT_EQ(request.json.at("atlases").size(), 1U);
@@ -66,26 +66,26 @@ TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   EXPECT_EQ(atlas["groups"][1].at("corners"), 4 * 3);
   EXPECT_EQ(atlas["groups"][1].at("like"), "lit");
   std::int64_t texels = 0;
-  for (const Tile& tile : plan_.tiles) texels += std::int64_t(tile.size.width) * tile.size.height;
+  for (const AtlasRect& rect : plan_.rects) texels += std::int64_t(rect.size.width) * rect.size.height;
   EXPECT_EQ(atlas.at("covered_texels"), texels);
   EXPECT_EQ(read_floats(folder_.path() / atlas.at("arrays")).size(), 36U * (3 + 3 + 2));
 }
 
 TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
   const auto& atlas = request.json["atlases"][0];
   const auto values = read_floats(folder_.path() / atlas.at("arrays"));
   const std::size_t corners = atlas["groups"][0].at("corners");
   for (std::size_t i = 0; i < corners / 3; ++i) {  // one triangle for each tile, in the layout's order
-    const Tile& tile = plan_.tiles[request.layout.tiles[i]];
+    const AtlasRect& rect = plan_.rects[request.layout.rects[i]];
     const Placement& place = request.layout.atlas.placements[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const float* uv = &values[corners * 6 + (3 * i + k) * 2];
-      const Vec2 expected = tile.sheet.corners[k].uv;
-      EXPECT_NEAR(uv[0] * atlas.at("width").get<float>(), expected.x * 32 - float(tile.x) + float(place.x),
+      const Vec2 expected = rect.pass.corners[k].uv;
+      EXPECT_NEAR(uv[0] * atlas.at("width").get<float>(), expected.x * 32 - float(rect.x) + float(place.x),
                   1e-4);
-      EXPECT_NEAR(uv[1] * atlas.at("height").get<float>(), expected.y * 16 - float(tile.y) + float(place.y),
+      EXPECT_NEAR(uv[1] * atlas.at("height").get<float>(), expected.y * 16 - float(rect.y) + float(place.y),
                   1e-4);
     }
   }
@@ -94,14 +94,14 @@ TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
 TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
   add_all();
   EXPECT_EQ(
-      receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path()).json.at("fences").at("count"),
+      receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path()).json.at("fences").at("count"),
       0);
   plan_.fences.resize(3);
   plan_.fences[0].push_back(Fence{{Vec3(1), Vec3(2), Vec3(3), Vec3(4)}, Vec3(0, 0, 1)});
   plan_.fences[2].push_back(Fence{{Vec3(5), Vec3(6), Vec3(7), Vec3(8)}, Vec3(1, 0, 0)});
-  Dispatch last;  // of "lit" alone
-  for (const std::size_t unit : plan_.dispatches[0].units)
-    if (plan_.units[unit].target == 2) last.units.push_back(unit);
+  Batch last;  // of "lit" alone
+  for (const std::size_t task : plan_.batches[0].tasks)
+    if (plan_.tasks[task].target == 2) last.tasks.push_back(task);
   const auto fences = receiver_request(context(), last, 1 << 20, folder_.path()).json.at("fences");
   EXPECT_EQ(fences.at("count"), 1);
   const auto values = read_floats(folder_.path() / fences.at("arrays"));
@@ -112,7 +112,7 @@ TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
 
 TEST_F(Requests, ThatDoNotFitOneAtlasTakeSeveral) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 200, folder_.path());
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 200, folder_.path());
   const auto& atlases = request.json.at("atlases");
   ASSERT_GT(atlases.size(), 1U);
   EXPECT_EQ(atlases.size(), request.layout.atlas.atlases.size());
@@ -129,9 +129,9 @@ TEST_F(Requests, OfObjectsNameLayersPartsAndBakes) {
   targets_[1].part = {"red", {1}};
   targets_[2].unwrapped = true;
   targets_[2].uv = std::make_shared<const std::vector<Vec2>>(square_uv());
-  for (std::size_t t = 0; t < 3; ++t) add_object_units(plan_, t, targets_[t], bases_, {});
-  group_units(plan_, BakingSettings::Dispatch::scene);
-  const BakeRequest request = object_request(context(), plan_.dispatches[0], true, folder_.path());
+  for (std::size_t t = 0; t < 3; ++t) add_object_tasks(plan_, t, targets_[t], bases_, {});
+  group_tasks(plan_, BakingSettings::Dispatch::scene);
+  const BakeRequest request = object_request(context(), plan_.batches[0], true, folder_.path());
   EXPECT_EQ(request.json.at("recipe"), "flat-normal-map");
   EXPECT_EQ(request.json.at("correct_bump"), true);
   const auto& targets = request.json.at("targets");
@@ -151,8 +151,8 @@ TEST_F(Requests, OfObjectsNameLayersPartsAndBakes) {
 
 TEST_F(Requests, GetTheirTilesBackTopRowFirst) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path());
-  const TileSize size = request.layout.atlas.atlases[0];
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const RectSize size = request.layout.atlas.atlases[0];
   std::vector<float> pixels(std::size_t(size.width) * size.height * 4);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
@@ -163,26 +163,26 @@ TEST_F(Requests, GetTheirTilesBackTopRowFirst) {
     }
   }
   write_floats(folder_.path() / "pixels0.f32", pixels);
-  const auto tiles = read_tiles(request.layout, plan_, folder_.path());
-  ASSERT_EQ(tiles.size(), plan_.tiles.size());
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
+  const auto rects = read_rects(request.layout, plan_, folder_.path());
+  ASSERT_EQ(rects.size(), plan_.rects.size());
+  for (std::size_t i = 0; i < rects.size(); ++i) {
     const Placement& place = request.layout.atlas.placements[i];
-    const TileSize tile = plan_.tiles[request.layout.tiles[i]].size;
-    ASSERT_EQ(tiles[i].width(), tile.width);
-    ASSERT_EQ(tiles[i].height(), tile.height);
-    EXPECT_EQ(tiles[i].texel(0, tile.height - 1)[0], float(place.x));
-    EXPECT_EQ(tiles[i].texel(0, tile.height - 1)[1], float(place.y));
-    EXPECT_EQ(tiles[i].texel(tile.width - 1, 0)[0], float(place.x + tile.width - 1));
-    EXPECT_EQ(tiles[i].texel(tile.width - 1, 0)[1], float(place.y + tile.height - 1));
+    const RectSize rect = plan_.rects[request.layout.rects[i]].size;
+    ASSERT_EQ(rects[i].width(), rect.width);
+    ASSERT_EQ(rects[i].height(), rect.height);
+    EXPECT_EQ(rects[i].texel(0, rect.height - 1)[0], float(place.x));
+    EXPECT_EQ(rects[i].texel(0, rect.height - 1)[1], float(place.y));
+    EXPECT_EQ(rects[i].texel(rect.width - 1, 0)[0], float(place.x + rect.width - 1));
+    EXPECT_EQ(rects[i].texel(rect.width - 1, 0)[1], float(place.y + rect.height - 1));
   }
 }
 
 TEST_F(Requests, RefuseShortAndMissingPictures) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path());
-  const auto read = [&] { (void)read_tiles(request.layout, plan_, folder_.path()); };
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const auto read = [&] { (void)read_rects(request.layout, plan_, folder_.path()); };
   EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("pixels0.f32"), std::string::npos);
-  const TileSize size = request.layout.atlas.atlases[0];
+  const RectSize size = request.layout.atlas.atlases[0];
   write_floats(folder_.path() / "pixels0.f32",
                std::vector<float>(std::size_t(size.width) * size.height * 4 - 1));
   EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("is the disk full?"), std::string::npos);
@@ -191,7 +191,7 @@ TEST_F(Requests, RefuseShortAndMissingPictures) {
 TEST_F(Requests, ThatCannotBeWrittenNameTheFile) {
   add_all();
   const auto text = error_of(ExitCode::io, [&] {
-    (void)receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path() / "absent");
+    (void)receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path() / "absent");
   });
   EXPECT_NE(text.find("receivers0.f32"), std::string::npos) << text;
 }

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "blender/find.h"
+#include "blender/probe.h"
 #include "blender/real_blender.h"
 
 #include <cstdlib>

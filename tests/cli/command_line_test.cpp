@@ -11,15 +11,16 @@
 namespace rnmbake {
 namespace {
 
-Given given(const char* key, const std::string& text) {
+SettingOverride given(const char* key, const std::string& text) {
   const Setting& setting = *find_setting(key);
-  Given one{&setting, parse_value(setting, text, "flag"), SettingSource::flag, "flag " + setting.flag()};
+  SettingOverride one{&setting, parse_value(setting, text, "flag"), SettingSource::flag,
+                      "flag " + setting.flag()};
   return one;
 }
 
 TEST(CommandLine, HoldsWhatWasTyped) {
-  std::vector<Given> flags{given("file", "my hall.blend"), given("samples", "64"), given("objects", "a,b*"),
-                           given("dir", "out")};
+  std::vector<SettingOverride> flags{given("file", "my hall.blend"), given("samples", "64"),
+                                     given("objects", "a,b*"), given("dir", "out")};
   flags.front().where = "argument SCENE";
   EXPECT_EQ(command_line("validate", resolve({}, {}, flags)),
             "rnmbake validate 'my hall.blend' --objects 'a,b*' --samples 64 --output out");

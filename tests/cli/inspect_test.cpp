@@ -11,8 +11,8 @@ namespace rnmbake {
 namespace {
 
 /// Three objects on two meshes: one with two UV layers, one without faces.
-Survey small_survey() {
-  Survey survey;
+SceneSurvey small_survey() {
+  SceneSurvey survey;
   survey.scene_file = "a.blend";
   survey.meshes = {square(), Mesh{}};
   survey.meshes[0].uv_layers = {{"UVMap", square_uv()}, {"Second", square_uv()}};
@@ -30,12 +30,12 @@ Survey small_survey() {
   return survey;
 }
 
-ResolvedConfig config_with(const std::vector<Given>& flags = {}) {
+ResolvedConfig config_with(const std::vector<SettingOverride>& flags = {}) {
   return resolve({}, {}, flags);
 }
 
 TEST(Inspect, ChoosesLayerAndSizeAsABakeDoes) {
-  const Survey survey = small_survey();
+  const SceneSurvey survey = small_survey();
   ResolvedConfig config = config_with();
   const Inspection inspection = inspect_scene(survey, config);
   ASSERT_EQ(inspection.objects.size(), 3U);
@@ -47,7 +47,7 @@ TEST(Inspect, ChoosesLayerAndSizeAsABakeDoes) {
 }
 
 TEST(Inspect, GoesOnWhereABakeWouldStop) {
-  Survey survey = small_survey();
+  SceneSurvey survey = small_survey();
   survey.meshes[0].uv_layers[1].uv.assign(6, Vec2(0));
   ResolvedConfig config = config_with();
   config.globals.object.unwrap = ObjectSettings::Unwrap::never;
@@ -56,7 +56,7 @@ TEST(Inspect, GoesOnWhereABakeWouldStop) {
 }
 
 TEST(Inspect, CountsProblemsAtTheSizeOfTheBake) {
-  Survey survey = small_survey();
+  SceneSurvey survey = small_survey();
   survey.meshes[0].uv_layers[1].uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 0}, {1, 1}};
   const Inspection inspection = inspect_scene(survey, config_with());
   ASSERT_EQ(inspection.objects[0].problems.size(), 1U);
@@ -64,7 +64,7 @@ TEST(Inspect, CountsProblemsAtTheSizeOfTheBake) {
 }
 
 TEST(Inspect, AlignsItsTableInSpiteOfUnicode) {
-  const Survey survey = small_survey();
+  const SceneSurvey survey = small_survey();
   std::ostringstream out;
   write_inspection(survey, inspect_scene(survey, config_with()), out);
   std::istringstream lines(out.str());
@@ -79,7 +79,7 @@ TEST(Inspect, AlignsItsTableInSpiteOfUnicode) {
 }
 
 TEST(Inspect, GroupsInstancesAndWhatIsNotSelected) {
-  Survey survey = small_survey();
+  SceneSurvey survey = small_survey();
   for (int i = 0; i < 1000; ++i) {
     SceneObject leaf = survey.objects[0];
     leaf.name = i < 500 ? "leaf" : "twig";
@@ -100,7 +100,7 @@ TEST(Inspect, GroupsInstancesAndWhatIsNotSelected) {
 }
 
 TEST(Inspect, WritesJson) {
-  const Survey survey = small_survey();
+  const SceneSurvey survey = small_survey();
   const auto json = inspection_json(survey, inspect_scene(survey, config_with()));
   EXPECT_EQ(json.at("schema_version"), 1);
   EXPECT_EQ(json.at("objects").at(0).at("uv").at("overlap_texels"), 0);

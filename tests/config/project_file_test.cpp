@@ -20,7 +20,7 @@ std::string refusal(const std::string& text) {
 }
 
 SettingValue value(const ProjectFile& project, std::string_view key) {
-  for (const Given& given : project.values) {
+  for (const SettingOverride& given : project.values) {
     if (given.setting->key == key) return given.value;
   }
   throw std::logic_error("not given");

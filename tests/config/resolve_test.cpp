@@ -23,10 +23,11 @@ ResolvedConfig resolved(const std::string& project, const Texts& variables = {},
     const auto found = variables.find(name);
     return found == variables.end() ? std::nullopt : std::optional(found->second);
   };
-  std::vector<Given> given;
+  std::vector<SettingOverride> given;
   for (const auto& [key, text] : flags) {
     const Setting& setting = *find_setting(key);
-    Given one{&setting, parse_value(setting, text, "flag"), SettingSource::flag, "flag " + setting.flag()};
+    SettingOverride one{&setting, parse_value(setting, text, "flag"), SettingSource::flag,
+                        "flag " + setting.flag()};
     given.push_back(one);
   }
   return resolve(parse_project(project, "project.toml"), read_environment(lookup), given);

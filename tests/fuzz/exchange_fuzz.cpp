@@ -61,7 +61,7 @@ std::string mutate_bytes(std::string bytes, std::size_t max_size) {
   return bytes;
 }
 
-void place_in_world(const Exchange& scene) {
+void place_in_world(const DiffuseScene& scene) {
   const Triangles triangles = world_triangles(scene);
   if (triangles.position.size() != 3 * triangles.size()) std::abort();
 }
@@ -71,12 +71,12 @@ void place_in_world(const Exchange& scene) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::vector<char> bytes(data, data + size);
-    const Exchange scene = parse_exchange(bytes, "fuzz");
+    const DiffuseScene scene = parse_diffuse_scene(bytes, "fuzz");
     place_in_world(scene);
-    const std::string written = exchange_bytes(scene);
+    const std::string written = diffuse_scene_bytes(scene);
     const std::vector<char> again(written.begin(), written.end());
     try {
-      (void)parse_exchange(again, "written");
+      (void)parse_diffuse_scene(again, "written");
     } catch (const Error&) {
       std::abort();  // what can be read can be written and read
     }

@@ -9,22 +9,22 @@ namespace {
 using namespace rnmbake;
 
 /// The least that is a scene.
-Exchange one_object() {
-  Exchange scene;
+DiffuseScene one_object() {
+  DiffuseScene scene;
   scene.survey.meshes.push_back(square());
   SceneObject object;
   object.key = object.name = "a";
   object.type = "MESH";
   object.mesh = 0;
   scene.survey.objects = {object};
-  scene.looks = {Look{}};
-  scene.object_looks = {{0}};
+  scene.materials = {SurfaceMaterial{}};
+  scene.object_materials = {{0}};
   return scene;
 }
 
 /// A mesh without area, mirrored, and one that is empty.
-Exchange degenerate() {
-  Exchange scene = one_object();
+DiffuseScene degenerate() {
+  DiffuseScene scene = one_object();
   scene.survey.meshes.push_back(
       triangle_mesh({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {0, 1, 2}, std::vector<Vec3>(3, Vec3(0, 0, 0))));
   scene.survey.meshes.emplace_back();
@@ -33,7 +33,7 @@ Exchange degenerate() {
     scene.survey.objects.back().key += std::to_string(mesh);
     scene.survey.objects.back().mesh = mesh;
     scene.survey.objects.back().to_world[0][0] = -1;
-    scene.object_looks.push_back({0});
+    scene.object_materials.push_back({0});
   }
   return scene;
 }
@@ -47,8 +47,8 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  write_exchange(folder / "everything.rnmscene", everything());
-  write_exchange(folder / "one_object.rnmscene", one_object());
-  write_exchange(folder / "degenerate.rnmscene", degenerate());
+  write_diffuse_scene(folder / "everything.rnmscene", everything());
+  write_diffuse_scene(folder / "one_object.rnmscene", one_object());
+  write_diffuse_scene(folder / "degenerate.rnmscene", degenerate());
   return 0;
 }

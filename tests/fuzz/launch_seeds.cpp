@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
       "p{\"phase\": \"bake\", \"what\": \"Cube\", \"done\": 1, \"total\": 2.5}\n{\"phase\": 3}\n");
   for (const bool exported : {false, true}) {
     std::string data;
-    nlohmann::json content = store_exchange(everything(), data);
+    nlohmann::json content = store_diffuse_scene(everything(), data);
     content["data"] = "survey.bin";
     content["data_bytes"] = data.size();
     if (!exported) content.erase("exchange");

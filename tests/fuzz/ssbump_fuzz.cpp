@@ -7,8 +7,8 @@
 #include "base/log.h"
 #include "cli/ssbump/ssbump_flags.h"
 #include "image/picture_rows.h"
-#include "ssbump/map/picture.h"
 #include "pipeline/ssbump/ssbump_run.h"
+#include "ssbump/map/picture.h"
 
 #include <algorithm>
 #include <cstdlib>

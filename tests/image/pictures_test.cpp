@@ -1,4 +1,4 @@
-// Pictures other than our own: PNG, JPEG, and what their readers do to values.
+// Textures other than our own: PNG, JPEG, and what their readers do to values.
 #include "base/error.h"
 #include "base/files.h"
 #include "image/display_png.h"
@@ -69,7 +69,7 @@ std::filesystem::path stored(const TempFolder& folder, const char* name,
   return file;
 }
 
-TEST(Pictures, AlphaOfAPngDoesNotChangeItsColours) {
+TEST(Textures, AlphaOfAPngDoesNotChangeItsColours) {
   const TempFolder folder;
   const LayeredImage image = read_image(stored(folder, "n.png", kRgbaPng));
   const Layer* layer = image.find("");
@@ -84,7 +84,7 @@ TEST(Pictures, AlphaOfAPngDoesNotChangeItsColours) {
   EXPECT_NEAR(at(1, 1, 2), 30, 1e-3);
 }
 
-TEST(Pictures, AlphaComesBehindVectorsToo) {
+TEST(Textures, AlphaComesBehindVectorsToo) {
   const TempFolder folder;
   LayeredImage image;
   image.layers.push_back({"", {"X", "Y", "Z", "A"}, FloatImage(1, 1, 4)});
@@ -95,14 +95,14 @@ TEST(Pictures, AlphaComesBehindVectorsToo) {
   EXPECT_EQ(read.layers[0].pixels.data(), image.layers[0].pixels.data());
 }
 
-TEST(Pictures, TruncatedPngAndJpegAreRefused) {
+TEST(Textures, TruncatedPngAndJpegAreRefused) {
   const TempFolder folder;
   EXPECT_NO_THROW((void)read_image(stored(folder, "whole.jpg", kJpeg)));
   EXPECT_THROW((void)read_image(stored(folder, "cut.png", kRgbaPng, 60)), Error);
   EXPECT_THROW((void)read_image(stored(folder, "cut.jpg", kJpeg, kJpeg.size() - 30)), Error);
 }
 
-TEST(Pictures, SrgbCurve) {
+TEST(Textures, SrgbCurve) {
   EXPECT_EQ(srgb_encode(0), 0);
   EXPECT_NEAR(srgb_encode(1), 1, 1e-6);
   EXPECT_NEAR(srgb_encode(0.0031308F), 0.04045, 1e-5);
@@ -112,7 +112,7 @@ TEST(Pictures, SrgbCurve) {
   EXPECT_EQ(srgb_encode(std::numeric_limits<float>::quiet_NaN()), 0);
 }
 
-TEST(Pictures, DisplayPngIsExposedClampedAndEncoded) {
+TEST(Textures, DisplayPngIsExposedClampedAndEncoded) {
   const TempFolder folder;
   FloatImage image(2, 1, 3);
   image.data() = {0.1070205F, 0, 0.5F, 7, -1, 0.25F};

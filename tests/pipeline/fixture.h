@@ -2,11 +2,11 @@
 #pragma once
 
 #include "base/files.h"
+#include "blender/blender_session.h"
 #include "blender/launch.h"
 #include "config/resolve.h"
-#include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/bake/dispatcher.h"
-#include "blender/blender_session.h"
+#include "pipeline/lightmaps/bake_collector.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -101,7 +101,7 @@ class Invented {
     for (const BasisDirection& basis : rnm_set().directions) bases_.push_back(basis);
     survey_.meshes.emplace_back();
     for (std::size_t i = 0; i < count; ++i) add_object(i);
-    group_units(plan_, config_.globals.bake.dispatch);
+    group_tasks(plan_, config_.globals.bake.dispatch);
   }
 
   [[nodiscard]] BakeContext context() const { return {survey_, targets_, bases_, plan_}; }
@@ -109,7 +109,7 @@ class Invented {
   [[nodiscard]] BakeSettings& settings() { return config_.globals; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
-  [[nodiscard]] std::vector<DeliveryNote>& notes() { return notes_; }
+  [[nodiscard]] std::vector<LightmapHeader>& notes() { return notes_; }
 
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
@@ -138,15 +138,15 @@ class Invented {
     target.object = index;
     target.key = name;
     target.width = target.height = 8;
-    Sheets sheets;
+    ReceiverPasses passes;
     for (std::size_t b = 0; b < bases_.size(); ++b) {
       const Vec3 id(static_cast<float>(index), static_cast<float>(b), 0), up(0, 0, 1);
-      sheets.sheets.push_back(
-          {Sheet::Role::basis, b, {{id, up, {0, 0}}, {id, up, {1, 0}}, {id, up, {1, 1}}}});
+      passes.passes.push_back(
+          {ReceiverPass::Role::basis, b, {{id, up, {0, 0}}, {id, up, {1, 0}}, {id, up, {1, 1}}}});
     }
-    add_receiver_units(plan_, index, target, std::move(sheets), bases_, {});
+    add_receiver_tasks(plan_, index, target, std::move(passes), bases_, {});
     targets_.push_back(std::move(target));
-    DeliveryNote note;
+    LightmapHeader note;
     note.stem = name;
     note.metadata.object = name;
     notes_.push_back(note);
@@ -154,21 +154,21 @@ class Invented {
 
   TempFolder folder_;
   ResolvedConfig config_;
-  Survey survey_;
+  SceneSurvey survey_;
   std::vector<Target> targets_;
   std::vector<BasisDirection> bases_;
   Plan plan_;
-  std::vector<DeliveryNote> notes_;
+  std::vector<LightmapHeader> notes_;
 };
 
-inline bool is_delivered(const DeliveryDesk& desk, std::size_t target) {
-  const Delivery& delivery = desk.deliveries()[target];
+inline bool is_delivered(const BakeCollector& collector, std::size_t target) {
+  const Delivery& delivery = collector.deliveries()[target];
   return delivery && std::holds_alternative<Delivered>(*delivery);
 }
 
 /// Why a target was given up; "" if it was not.
-inline std::string reason_of(const DeliveryDesk& desk, std::size_t target) {
-  const Delivery& delivery = desk.deliveries()[target];
+inline std::string reason_of(const BakeCollector& collector, std::size_t target) {
+  const Delivery& delivery = collector.deliveries()[target];
   const auto* given_up = delivery ? std::get_if<NotDelivered>(&*delivery) : nullptr;
   return given_up != nullptr ? given_up->reason : "";
 }

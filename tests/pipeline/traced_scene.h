@@ -12,8 +12,8 @@
 namespace rnmbake {
 
 /// A whole object as target of `side` texels, with its first UV layer.
-inline void add_target(ExportedScene& exported, std::size_t object, int side) {
-  const Survey& survey = exported.exchange.survey;
+inline void add_target(ExportResult& exported, std::size_t object, int side) {
+  const SceneSurvey& survey = exported.diffuse_scene.survey;
   const SceneObject& it = survey.objects[object];
   Target target;
   target.object = object;
@@ -31,11 +31,11 @@ inline void add_target(ExportedScene& exported, std::size_t object, int side) {
 }
 
 /// A floor that looks up into a world of that radiance.
-inline ExportedScene floor_under_sky(float radiance = 1) {
-  ExportedScene exported;
-  exported.exchange.survey.blender_version = "4.3.2";
-  exported.exchange.world.radiance = Vec3(radiance);
-  add_object(exported.exchange, "floor", {level(1, 0)}, Vec3(0.5F));
+inline ExportResult floor_under_sky(float radiance = 1) {
+  ExportResult exported;
+  exported.diffuse_scene.survey.blender_version = "4.3.2";
+  exported.diffuse_scene.world.radiance = Vec3(radiance);
+  add_object(exported.diffuse_scene, "floor", {level(1, 0)}, Vec3(0.5F));
   add_target(exported, 0, 8);
   return exported;
 }

@@ -5,7 +5,7 @@
 namespace rnmbake {
 namespace {
 
-/// Looks every quarter of a second until `until`, CPU time growing by `share` of a core.
+/// SurfaceMaterials every quarter of a second until `until`, CPU time growing by `share` of a core.
 void watch_quietly(StallWatch& watch, double until, double share, bool wants_core) {
   for (double now = 0.25; now <= until; now += 0.25) watch.observe(now, now * share, wants_core, false);
 }

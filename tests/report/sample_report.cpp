@@ -17,14 +17,14 @@ namespace {
 
 const std::vector<std::string> kBases{"flat", "rnm0", "rnm1", "rnm2"};
 
-struct Pictures {
+struct Textures {
   FloatImage candidate, second, reference, error, coverage;
 };
 
 /// A lamp's light over a floor, warm, with a shadow; the candidate is a little off where light grazes.
-Pictures make_pictures(int size, double offset, std::mt19937& random) {
+Textures make_pictures(int size, double offset, std::mt19937& random) {
   std::normal_distribution<double> normal(0, 1);
-  Pictures p{FloatImage(size, size, 3), FloatImage(size, size, 3), FloatImage(size, size, 3),
+  Textures p{FloatImage(size, size, 3), FloatImage(size, size, 3), FloatImage(size, size, 3),
              FloatImage(size, size, 3), FloatImage(size, size, 1)};
   const double tint[3] = {1.0, 0.85, 0.62};
   for (int y = 0; y < size; ++y) {
@@ -61,7 +61,7 @@ ObjectComparison make_object(const std::string& key, int size, int limit, std::m
   object.coverage = 0.9;
   object.validity = 0.98;
   for (std::size_t i = 0; i < kBases.size(); ++i) {
-    const Pictures p = make_pictures(size, offsets(random), random);
+    const Textures p = make_pictures(size, offsets(random), random);
     const ComparedPicture candidate{&p.candidate, &p.second, nullptr};
     const ComparedPicture reference{&p.reference, nullptr, &p.error};
     PictureComparison comparison;

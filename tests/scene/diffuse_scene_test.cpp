@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t header_bytes = 32, checksum_bytes = 8;
 
-std::vector<char> bytes_of(const Exchange& scene) {
-  const std::string bytes = exchange_bytes(scene);
+std::vector<char> bytes_of(const DiffuseScene& scene) {
+  const std::string bytes = diffuse_scene_bytes(scene);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -61,7 +61,7 @@ std::string refusal(const std::function<void(Parts&)>& change, ExitCode code = E
   Parts parts(bytes_of(everything()));
   change(parts);
   try {
-    (void)parse_exchange(parts.file(), "scene.rnmscene");
+    (void)parse_diffuse_scene(parts.file(), "scene.rnmscene");
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();
     EXPECT_EQ(std::string(error.what()).rfind("scene.rnmscene: ", 0), 0U) << error.what();
@@ -76,10 +76,10 @@ std::string refusal(const std::function<void(Parts&)>& change, ExitCode code = E
     EXPECT_NE(said.find(text), std::string::npos) << said; \
   } while (false)
 
-TEST(Exchange, ComesBackAsItWasWritten) {
-  const Exchange before = everything();
-  const Exchange after = parse_exchange(bytes_of(before), "memory");
-  EXPECT_EQ(exchange_bytes(after), exchange_bytes(before)) << "the same scene gives the same bytes";
+TEST(DiffuseScene, ComesBackAsItWasWritten) {
+  const DiffuseScene before = everything();
+  const DiffuseScene after = parse_diffuse_scene(bytes_of(before), "memory");
+  EXPECT_EQ(diffuse_scene_bytes(after), diffuse_scene_bytes(before)) << "the same scene gives the same bytes";
 
   ASSERT_EQ(after.survey.objects.size(), 2U);
   EXPECT_EQ(after.survey.objects[0].key, "Wall/柱");
@@ -95,11 +95,11 @@ TEST(Exchange, ComesBackAsItWasWritten) {
   EXPECT_EQ(after.picture_uvs, before.picture_uvs);
   EXPECT_EQ(after.normal_maps[0].uv_layer, "UVMap");
   EXPECT_EQ(after.normal_maps[0].strength, 0.5F);
-  EXPECT_EQ(after.looks[0].emission_picture, 1);
-  EXPECT_EQ(after.looks[1].emission, Vec3(4, 2, 1));
-  EXPECT_EQ(after.looks[0].transmittance_picture, 0);
-  EXPECT_EQ(after.looks[1].transmittance, Vec3(0.25F, 0.5F, 0.75F));
-  EXPECT_EQ(after.object_looks, before.object_looks);
+  EXPECT_EQ(after.materials[0].emission_picture, 1);
+  EXPECT_EQ(after.materials[1].emission, Vec3(4, 2, 1));
+  EXPECT_EQ(after.materials[0].transmittance_picture, 0);
+  EXPECT_EQ(after.materials[1].transmittance, Vec3(0.25F, 0.5F, 0.75F));
+  EXPECT_EQ(after.object_materials, before.object_materials);
   EXPECT_TRUE(after.takes_part(0));
   EXPECT_FALSE(after.takes_part(1));
   EXPECT_EQ(after.world.picture, 2);
@@ -111,18 +111,18 @@ TEST(Exchange, ComesBackAsItWasWritten) {
   EXPECT_EQ(after.survey.lights[0].max_bounces, before.survey.lights[0].max_bounces);
 }
 
-TEST(Exchange, LightMayBeNegative) {
-  Exchange scene = everything();
-  scene.looks[1].emission = Vec3(-2, 0, 1);
+TEST(DiffuseScene, LightMayBeNegative) {
+  DiffuseScene scene = everything();
+  scene.materials[1].emission = Vec3(-2, 0, 1);
   scene.pictures[2].texels[0] = Vec3(-0.1F, 0, 0);
   scene.world.radiance = Vec3(0, -1, 0);
-  const Exchange after = parse_exchange(bytes_of(scene), "memory");
-  EXPECT_EQ(after.looks[1].emission, Vec3(-2, 0, 1));
+  const DiffuseScene after = parse_diffuse_scene(bytes_of(scene), "memory");
+  EXPECT_EQ(after.materials[1].emission, Vec3(-2, 0, 1));
   EXPECT_EQ(after.pictures[2].texels[0], Vec3(-0.1F, 0, 0));
   EXPECT_EQ(after.world.radiance, Vec3(0, -1, 0));
 }
 
-TEST(Exchange, KeepsPicturesInTheSmallestFormThatLosesNothing) {
+TEST(DiffuseScene, KeepsPicturesInTheSmallestFormThatLosesNothing) {
   const Parts parts(bytes_of(everything()));
   const json& pictures = parts.content.at("exchange").at("pictures");
   EXPECT_EQ(pictures[0].at("form"), "u8");
@@ -130,23 +130,23 @@ TEST(Exchange, KeepsPicturesInTheSmallestFormThatLosesNothing) {
   EXPECT_EQ(pictures[2].at("form"), "f32");
 }
 
-TEST(Exchange, LooksUpTheLastSlotForThosePastIt) {
-  const Exchange scene = everything();
-  EXPECT_EQ(scene.look(0, 0).material, "brick");
-  EXPECT_EQ(scene.look(0, 7).material, "lamp");
+TEST(DiffuseScene, LooksUpTheLastSlotForThosePastIt) {
+  const DiffuseScene scene = everything();
+  EXPECT_EQ(scene.material(0, 0).name, "brick");
+  EXPECT_EQ(scene.material(0, 7).name, "lamp");
 }
 
-TEST(Exchange, ReadsFilesAndFindsEveryDamage) {
+TEST(DiffuseScene, ReadsFilesAndFindsEveryDamage) {
   const TempFolder folder;
   const fs::path file = folder.path() / "room.rnmscene";
-  write_exchange(file, everything());
-  EXPECT_EQ(exchange_bytes(read_exchange(file)), exchange_bytes(everything()));
+  write_diffuse_scene(file, everything());
+  EXPECT_EQ(diffuse_scene_bytes(read_diffuse_scene(file)), diffuse_scene_bytes(everything()));
 
   const std::string whole = read_text(file);
   const auto refused = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
     try {
-      (void)read_exchange(file);
+      (void)read_diffuse_scene(file);
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find("room.rnmscene"), std::string::npos) << error.what();
       return std::string(error.what());
@@ -172,16 +172,16 @@ TEST(Exchange, ReadsFilesAndFindsEveryDamage) {
             std::string::npos);
 }
 
-TEST(Exchange, SaysThatAFileIsNotThere) {
+TEST(DiffuseScene, SaysThatAFileIsNotThere) {
   try {
-    (void)read_exchange("/nowhere/room.rnmscene");
+    (void)read_diffuse_scene("/nowhere/room.rnmscene");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::io);
   }
 }
 
-TEST(Exchange, RefusesIndicesThatPointNowhere) {
+TEST(DiffuseScene, RefusesIndicesThatPointNowhere) {
   EXPECT_SAYS("object 'ghost': look 9 of 2", [](Parts& p) { p.own()["object_looks"][1][0] = 9; });
   EXPECT_SAYS("object 'ghost': it has no look", [](Parts& p) { p.own()["object_looks"][1] = json::array(); });
   EXPECT_SAYS("looks for 1 objects", [](Parts& p) { p.own()["object_looks"].erase(1); });
@@ -208,7 +208,7 @@ TEST(Exchange, RefusesIndicesThatPointNowhere) {
   EXPECT_SAYS("no count", [](Parts& p) { p.content["meshes"][0]["loops"] = 1.5; });
 }
 
-TEST(Exchange, RefusesWhatIsNoNumber) {
+TEST(DiffuseScene, RefusesWhatIsNoNumber) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const auto offset = [](const json& entry) { return entry.at("offset").get<std::size_t>(); };
   EXPECT_SAYS("picture 'floats': texel (0, 0)",
@@ -243,7 +243,7 @@ TEST(Exchange, RefusesWhatIsNoNumber) {
               [](Parts& p) { p.content["objects"][1]["matrix"].erase(0); });
 }
 
-TEST(Exchange, RefusesSizesThatTheFileDoesNotHold) {
+TEST(DiffuseScene, RefusesSizesThatTheFileDoesNotHold) {
   EXPECT_SAYS("picture 'bytes'", [](Parts& p) { p.own()["pictures"][0]["width"] = 65536; });
   EXPECT_SAYS("picture 'bytes': its size", [](Parts& p) { p.own()["pictures"][0]["width"] = 65537; });
   EXPECT_SAYS("picture 'bytes': its size", [](Parts& p) { p.own()["pictures"][0]["height"] = 0; });
@@ -260,7 +260,7 @@ TEST(Exchange, RefusesSizesThatTheFileDoesNotHold) {
   });
 }
 
-TEST(Exchange, RefusesWhatIsMissingOrOfAnotherKind) {
+TEST(DiffuseScene, RefusesWhatIsMissingOrOfAnotherKind) {
   const Parts whole(bytes_of(everything()));
   for (const auto& [key, value] : whole.content.items()) {
     EXPECT_NE(refusal([&, &gone = key](Parts& p) { p.content.erase(gone); }), "it was read") << key;
@@ -273,20 +273,20 @@ TEST(Exchange, RefusesWhatIsMissingOrOfAnotherKind) {
       "another rnmbake", [](Parts& p) { p.content["format"] = 2; }, ExitCode::unsupported);
 }
 
-TEST(Exchange, ReadsVersionOneWithoutTransmittance) {
+TEST(DiffuseScene, ReadsVersionOneWithoutTransmittance) {
   Parts parts(bytes_of(everything()));
-  for (json& look : parts.own()["looks"]) {
-    look.erase("transmittance");
-    look.erase("transmittance_picture");
+  for (json& material : parts.own()["looks"]) {
+    material.erase("transmittance");
+    material.erase("transmittance_picture");
   }
   std::vector<char> file = parts.file();
   file[8] = 1;
-  const Exchange scene = parse_exchange(file, "old");
-  for (const Look& look : scene.looks) EXPECT_FALSE(look.see_through());
-  EXPECT_TRUE(everything().looks[1].see_through());
+  const DiffuseScene scene = parse_diffuse_scene(file, "old");
+  for (const SurfaceMaterial& material : scene.materials) EXPECT_FALSE(material.see_through());
+  EXPECT_TRUE(everything().materials[1].see_through());
 }
 
-TEST(Exchange, BentBytesGiveErrorsAndNothingElse) {
+TEST(DiffuseScene, BentBytesGiveErrorsAndNothingElse) {
   const std::vector<char> whole = bytes_of(everything());
   std::mt19937 random(7);
   int read = 0;
@@ -294,7 +294,7 @@ TEST(Exchange, BentBytesGiveErrorsAndNothingElse) {
     std::vector<char> bent = whole;
     for (int i = 0; i < 3; ++i) bent[header_bytes + random() % (bent.size() - header_bytes)] = char(random());
     try {
-      (void)parse_exchange(bent, "bent");
+      (void)parse_diffuse_scene(bent, "bent");
       ++read;
     } catch (const Error&) {
     }

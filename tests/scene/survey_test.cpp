@@ -1,6 +1,5 @@
-#include "scene/survey_parse.h"
-
 #include "base/error.h"
+#include "scene/survey_parse.h"
 
 #include <cmath>
 #include <cstring>
@@ -57,7 +56,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  [[nodiscard]] Survey read() {
+  [[nodiscard]] SceneSurvey read() {
     content["data_bytes"] = declared_bytes.value_or(data.size());
     std::ofstream(path_ / "survey.json") << content;
     std::ofstream(path_ / "survey.bin", std::ios::binary).write(data.data(), std::streamsize(data.size()));
@@ -109,8 +108,8 @@ class Folder {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-TEST(Survey, HoldsWhatWasWritten) {
-  const Survey survey = Folder().read();
+TEST(SceneSurvey, HoldsWhatWasWritten) {
+  const SceneSurvey survey = Folder().read();
   EXPECT_EQ(survey.scene_file, "a.blend");
   EXPECT_EQ(survey.blender_version, "3.4.1");
   ASSERT_EQ(survey.objects.size(), 2U);
@@ -131,14 +130,14 @@ TEST(Survey, HoldsWhatWasWritten) {
   EXPECT_EQ(survey.warnings, std::vector<std::string>{"hm"});
 }
 
-TEST(Survey, NamesTheObjectWithANaNVertex) {
+TEST(SceneSurvey, NamesTheObjectWithANaNVertex) {
   Folder folder;
   folder.put("positions", 4, nan);
   const std::string message = folder.refusal(ExitCode::invalid_input);
   EXPECT_NE(message.find("object 'Wall': vertex 1"), std::string::npos) << message;
 }
 
-TEST(Survey, NamesTheLayerWithAnInfiniteUv) {
+TEST(SceneSurvey, NamesTheLayerWithAnInfiniteUv) {
   Folder folder;
   const float infinity = std::numeric_limits<float>::infinity();
   std::memcpy(&folder.data[folder.mesh()["uv_layers"][0]["offset"].get<std::size_t>()], &infinity, 4);
@@ -146,16 +145,16 @@ TEST(Survey, NamesTheLayerWithAnInfiniteUv) {
   EXPECT_NE(message.find("object 'Wall': UV layer 'UVMap': corner 0"), std::string::npos) << message;
 }
 
-TEST(Survey, ReplacesUselessNormalsByTheFaces) {
+TEST(SceneSurvey, ReplacesUselessNormalsByTheFaces) {
   Folder folder;
   folder.put("loop_normal", 3, nan);
   folder.put("loop_normal", 8, 0.0F);
-  const Survey survey = folder.read();
+  const SceneSurvey survey = folder.read();
   EXPECT_EQ(survey.meshes[0].loop_normal[1], Vec3(0, 0, 1));
   EXPECT_EQ(survey.meshes[0].loop_normal[2], Vec3(0, 0, 1));
 }
 
-TEST(Survey, RefusesIndicesThatPointNowhere) {
+TEST(SceneSurvey, RefusesIndicesThatPointNowhere) {
   for (const char* what : {"loop_vertex", "triangle_loops", "triangle_polygon"}) {
     for (const std::int32_t index : {3, -1}) {
       Folder folder;
@@ -168,25 +167,25 @@ TEST(Survey, RefusesIndicesThatPointNowhere) {
   EXPECT_NE(folder.refusal(ExitCode::invalid_input).find("face 0"), std::string::npos);
 }
 
-TEST(Survey, RefusesAMeshThatDoesNotExist) {
+TEST(SceneSurvey, RefusesAMeshThatDoesNotExist) {
   Folder folder;
   folder.content["objects"][1]["mesh"] = 1;
   EXPECT_NE(folder.refusal(ExitCode::invalid_input).find("Säule/柱"), std::string::npos);
 }
 
-TEST(Survey, RefusesTwoObjectsWithOneKey) {
+TEST(SceneSurvey, RefusesTwoObjectsWithOneKey) {
   Folder folder;
   folder.content["objects"][1]["key"] = "Wall";
   EXPECT_NE(folder.refusal(ExitCode::invalid_input).find("twice"), std::string::npos);
 }
 
-TEST(Survey, RefusesUvLayersThatAreNotThere) {
+TEST(SceneSurvey, RefusesUvLayersThatAreNotThere) {
   Folder folder;
   folder.mesh()["active_uv"] = 1;
   EXPECT_NE(folder.refusal(ExitCode::invalid_input).find("active UV layer"), std::string::npos);
 }
 
-TEST(Survey, RefusesDataThatEndsEarly) {
+TEST(SceneSurvey, RefusesDataThatEndsEarly) {
   Folder cut;
   cut.declared_bytes = cut.data.size();
   cut.data.resize(cut.data.size() - 1);
@@ -199,13 +198,13 @@ TEST(Survey, RefusesDataThatEndsEarly) {
   EXPECT_NE(huge.refusal(ExitCode::invalid_input).find("positions"), std::string::npos);
 }
 
-TEST(Survey, RefusesAnotherFormat) {
+TEST(SceneSurvey, RefusesAnotherFormat) {
   Folder folder;
   folder.content["format"] = 2;
   EXPECT_NE(folder.refusal(ExitCode::unsupported).find("format 2"), std::string::npos);
 }
 
-TEST(Survey, RefusesWhatIsNoSurvey) {
+TEST(SceneSurvey, RefusesWhatIsNoSurvey) {
   Folder folder;
   folder.content["objects"][0].erase("slots");
   EXPECT_NE(folder.refusal(ExitCode::invalid_input).find("survey.json"), std::string::npos);

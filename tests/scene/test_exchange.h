@@ -6,8 +6,8 @@
 
 namespace rnmbake {
 
-inline Exchange everything() {
-  Exchange scene;
+inline DiffuseScene everything() {
+  DiffuseScene scene;
   scene.survey.scene_file = "room.blend";
   scene.survey.scene_name = "Scene";
   scene.survey.blender_version = "3.4.1";
@@ -42,10 +42,11 @@ inline Exchange everything() {
   scene.pictures.push_back({1, 1, {Vec3(0.1F, 70000, 0)}, "floats"});
   scene.picture_uvs = {square_uv()};
   scene.normal_maps = {{0, "UVMap", 0.5F}, {0, "", 1}};
-  Look brick{"brick", Vec3(0), Vec3(0), 0, 1, 0, 0, Vec3(0), 0};
-  Look glow{"lamp", Vec3(0.5F, 0.25F, 0.125F), Vec3(4, 2, 1), -1, -1, -1, 1, Vec3(0.25F, 0.5F, 0.75F)};
-  scene.looks = {brick, glow};
-  scene.object_looks = {{0, 1}, {1}};
+  SurfaceMaterial brick{"brick", Vec3(0), Vec3(0), 0, 1, 0, 0, Vec3(0), 0};
+  SurfaceMaterial glow{"lamp", Vec3(0.5F, 0.25F, 0.125F), Vec3(4, 2, 1), -1, -1, -1,
+                       1,      Vec3(0.25F, 0.5F, 0.75F)};
+  scene.materials = {brick, glow};
+  scene.object_materials = {{0, 1}, {1}};
   scene.unlit = {0, 1};
   scene.world.picture = 2;
   scene.camera = Camera{};

@@ -12,7 +12,7 @@
 namespace rnmbake {
 
 template <typename Function>
-HeightField field_of(int width, int height, Beyond beyond, const Function& at) {
+HeightField field_of(int width, int height, WrapMode beyond, const Function& at) {
   HeightField field{FloatImage(width, height, 1), beyond, beyond};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) field.heights.texel(x, y)[0] = static_cast<float>(at(x, y));
@@ -20,7 +20,7 @@ HeightField field_of(int width, int height, Beyond beyond, const Function& at) {
 }
 
 /// Waves of all lengths that fit the tile, in random phases: as rough as stone. `range`: about max - min.
-inline HeightField rough_field(int width, int height, Beyond beyond, double range, unsigned seed = 1) {
+inline HeightField rough_field(int width, int height, WrapMode beyond, double range, unsigned seed = 1) {
   struct Wave {
     int x, y;
     double phase, size;

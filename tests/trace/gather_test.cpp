@@ -24,7 +24,7 @@ std::vector<double> deviations(const Gathered& gathered, const std::vector<doubl
 /// The relative error, mean over the directions and seeds, must be within 4 of its standard errors, and
 /// these at most `weakest` (2.5e-4: a bias of 0.1 % fails); each direction must be within 4.5 of its own; and
 /// the errors that each run states must be those that the seeds show.
-void expect_unbiased(const Exchange& scene, std::size_t object, const GatherOptions& base,
+void expect_unbiased(const DiffuseScene& scene, std::size_t object, const GatherOptions& base,
                      const std::vector<double>& truth, double weakest = 6e-4, int seeds = 32) {
   const std::size_t count = truth.size();
   std::vector<Moments> each(count);
@@ -55,14 +55,14 @@ void expect_unbiased(const Exchange& scene, std::size_t object, const GatherOpti
   }
 }
 
-Exchange furnace(float half = 1, const Vec3& middle = Vec3(0), float emission = 1, float albedo = 0.5F) {
-  Exchange scene;
+DiffuseScene furnace(float half = 1, const Vec3& middle = Vec3(0), float emission = 1, float albedo = 0.5F) {
+  DiffuseScene scene;
   add_object(scene, "room", room(half, middle), Vec3(albedo), Vec3(emission));
   return scene;
 }
 
 TEST(Gather, UniformSkyGivesEveryTexelItsShare) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
   scene.world.radiance = Vec3(1);
   expect_unbiased(scene, 0, all_directions(512), {1, sky_share, sky_share, sky_share}, 2.5e-4);
@@ -92,14 +92,14 @@ TEST(Gather, FurnaceOfHighAlbedoLosesNoEnergy) {
 }
 
 TEST(Gather, LightSamplingAloneAgrees) {
-  Exchange scene;  // a lamp that is not too near: light sampling alone has infinite variance in the furnace's
-                   // corners
+  DiffuseScene scene;  // a lamp that is not too near: light sampling alone has infinite variance in the
+                       // furnace's corners
   add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
   add_object(scene, "lamp", {level(1, 1, false)}, Vec3(0), Vec3(1));
   GatherOptions options = all_directions(64);
   options.footprint = Footprint::centre;
   const Gathered both = gather_one(scene, 0, options, 5, 5);
-  options.chance_hits = false;
+  options.sample_bsdf = false;
   options.samples = 1024;
   const Gathered sampled = gather_one(scene, 0, options, 5, 5);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -110,7 +110,7 @@ TEST(Gather, LightSamplingAloneAgrees) {
 }
 
 TEST(Gather, SquareLampMatchesLambertsPolygonFormula) {
-  Exchange scene;  // the middle texel of 5 x 5 lies under the middle of the lamp
+  DiffuseScene scene;  // the middle texel of 5 x 5 lies under the middle of the lamp
   add_object(scene, "floor", {level(0.05F, 0)}, Vec3(0));
   add_object(scene, "lamp", {level(1, 1, false)}, Vec3(0), Vec3(1));
   GatherOptions options = all_directions(1 << 14);
@@ -131,7 +131,7 @@ TEST(Gather, FurnaceFarFromTheOriginAndTiny) {
 }
 
 TEST(Gather, NoLightGivesExactZeros) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "room", room(1), Vec3(0.8F));
   const Gathered gathered = gather_one(scene, 0, all_directions(8));
   for (const GatheredDirection& direction : gathered.directions) {
@@ -141,7 +141,7 @@ TEST(Gather, NoLightGivesExactZeros) {
 }
 
 TEST(Gather, LampInAClosedBoxStaysInside) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(2, 0)}, Vec3(0.8F));
   add_object(scene, "box", room(0.5F, Vec3(0, 0, 1)), Vec3(0.8F));
   LightInfo lamp = light("POINT", 100, {{"shadow_soft_size", 0.1}});
@@ -180,7 +180,7 @@ TEST(Gather, BouncesCountSurfacesAfterTheTexelsOwn) {
 /// A closed room gets back r of what it got: with k bounces its walls have 1 + r + ... + r^k on average.
 TEST(Gather, LampsLightNoMoreBouncesThanTheirOwn) {
   for (const int most : {0, 2, 1024}) {
-    Exchange scene = furnace(1, Vec3(0), 0, 0.8F);
+    DiffuseScene scene = furnace(1, Vec3(0), 0, 0.8F);
     scene.survey.lights.push_back(light("POINT", 24 * pi, {{"shadow_soft_size", 0}}));
     scene.survey.lights.back().max_bounces = most;
     const Gathered gathered = gather_one(scene, 0, all_directions(256), 48, 8);
@@ -194,7 +194,7 @@ TEST(Gather, LampsLightNoMoreBouncesThanTheirOwn) {
 
 TEST(Gather, NegativeLightTakesAwayWhatPositiveLightGives) {
   const auto floor = [](float emission) {
-    Exchange scene;
+    DiffuseScene scene;
     scene.world.radiance = Vec3(1);
     add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
     add_object(scene, "panel", {level(1, 1, false)}, Vec3(0), Vec3(emission));
@@ -210,7 +210,7 @@ TEST(Gather, NegativeLightTakesAwayWhatPositiveLightGives) {
 }
 
 TEST(Gather, ErrorAskedForIsReachedAndTrue) {
-  const Exchange scene = furnace();
+  const DiffuseScene scene = furnace();
   GatherOptions options = all_directions(1 << 14);
   options.error = 0.03;
   int inside = 0;
@@ -236,7 +236,7 @@ TEST(Gather, ErrorAskedForIsReachedAndTrue) {
 }
 
 TEST(Gather, ValidityFindsTexelsBehindWalls) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(2, 0)}, Vec3(0.8F));
   std::vector<Quad> outside;  // a box on the floor that faces outwards: its inside shows back faces
   for (Quad quad : room(1, Vec3(0, 0, 0.5F))) outside.push_back({quad[3], quad[2], quad[1], quad[0]});
@@ -248,7 +248,7 @@ TEST(Gather, ValidityFindsTexelsBehindWalls) {
 }
 
 TEST(Gather, ShOfAUniformSky) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
   scene.world.radiance = Vec3(1);
   GatherOptions options = all_directions(1 << 14);

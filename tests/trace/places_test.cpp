@@ -16,8 +16,8 @@ Mat44 placed(double scale, const Vec3d& place) {
 }
 
 /// A floor with a post on it, a slanted sun, a lamp and a glowing square.
-Exchange courtyard(double scale, const Vec3d& shift) {
-  Exchange scene;
+DiffuseScene courtyard(double scale, const Vec3d& shift) {
+  DiffuseScene scene;
   add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
   add_object(scene, "post", room(0.25F, Vec3(0, 0, 0.25F)), Vec3(0.5F));
   add_object(scene, "glow", {level(0.25F, 1, false, Vec3(0.5F, 0.5F, 0))}, Vec3(0), Vec3(2));
@@ -60,7 +60,7 @@ TEST(Places, TheTruthIsTheSameAtAnySize) {
 
 TEST(Places, LightAlongAFaceDoesNotReachIt) {
   for (const double rise : {0.0, 1e-7, -1e-7, -1e-3, 1e-5, 1e-3}) {
-    Exchange scene;
+    DiffuseScene scene;
     add_object(scene, "floor", {level(1, 0)}, Vec3(0));
     LightInfo sun = light("SUN", pi, {{"angle", 0}});  // from +x
     sun.to_world = Mat44(0, 0, 1, 0, 0, 1, 0, 0, std::cos(rise), 0, std::sin(rise), 0, 0, 0, 0, 1);

@@ -36,7 +36,7 @@ TEST(Recipe, SunsComeOutAsInEachBlender) {
                          Row{"5.2.2", {0.5773, 0.8990, 0.7148, -1, 0.2540}}}) {
     for (std::size_t i = 0; i < angles.size(); ++i) {
       if (row.values[i] < 0) continue;
-      Exchange scene;
+      DiffuseScene scene;
       add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
       LightInfo sun = light("SUN", 1, {{"angle", 0}});
       const double angle = angles[i] * pi / 180;
@@ -52,7 +52,7 @@ TEST(Recipe, SunsComeOutAsInEachBlender) {
 
 TEST(Recipe, UniformSkyComesOutAsInEachBlender) {
   for (const auto& [version, value] : {std::pair{"3.4.1", 0.7416}, {"4.3.2", 0.6847}, {"5.2.2", 0.6330}}) {
-    Exchange scene;
+    DiffuseScene scene;
     add_object(scene, "floor", {level(1, 0)}, Vec3(0.5F));
     scene.world.radiance = Vec3(1);
     const Gathered gathered = gather_one(scene, 0, recipe_options(version, 1 << 14), 4, 4);
@@ -65,7 +65,7 @@ TEST(Recipe, UniformSkyComesOutAsInEachBlender) {
 /// Self-reflection: expected without it is 3.9434.
 TEST(Recipe, FurnaceComesOutAsInEachBlender) {
   for (const auto& [version, value] : {std::pair{"3.4.1", 1.9187}, {"4.3.2", 1.5167}, {"5.2.2", 1.2841}}) {
-    Exchange scene;
+    DiffuseScene scene;
     add_object(scene, "room", room(1), Vec3(0.8F), Vec3(1));
     const Gathered gathered = gather_one(scene, 0, recipe_options(version, 1 << 12), 12, 2);
     EXPECT_NEAR(gathered.directions[1].mean[0], value, 0.01 * value) << version;
@@ -80,13 +80,13 @@ void make_smooth(Mesh& mesh, const Vec3& middle, float side) {
   }
 }
 
-void add_sun(Exchange& scene, double degrees) {
+void add_sun(DiffuseScene& scene, double degrees) {
   LightInfo sun = light("SUN", 1, {{"angle", 0}});
   sun.to_world.setAxisAngle(Vec3d(0, 1, 0), degrees * pi / 180);  // from the zenith towards +x
   scene.survey.lights.push_back(sun);
 }
 
-double flat_mean(const Exchange& scene, bool from_below, int samples = 64) {
+double flat_mean(const DiffuseScene& scene, bool from_below, int samples = 64) {
   GatherOptions options = recipe_options("4.3.2", samples);
   options.faults.self_reflection = false;
   options.faults.below_horizon = from_below;
@@ -94,7 +94,7 @@ double flat_mean(const Exchange& scene, bool from_below, int samples = 64) {
 }
 
 TEST(Recipe, LightFromBelowComesWhereTheSurfaceBulges) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "square", {level(1, 0)}, Vec3(0.5F));
   make_smooth(scene.survey.meshes[0], Vec3(0, 0, -3), 1);
   add_sun(scene, 91);
@@ -104,7 +104,7 @@ TEST(Recipe, LightFromBelowComesWhereTheSurfaceBulges) {
 
 /// Cycles does not pass by the face that a ray starts from where it is shaded smooth.
 TEST(Recipe, NoLightFromBelowComesThroughAShell) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "room", room(1), Vec3(0.5F));
   make_smooth(scene.survey.meshes[0], Vec3(0), -1);
   for (const double degrees : {0, 30, 50}) add_sun(scene, degrees);
@@ -113,7 +113,7 @@ TEST(Recipe, NoLightFromBelowComesThroughAShell) {
 
 /// Cycles leaves a sky that is the same everywhere to chance, which finds none of it under the face.
 TEST(Recipe, AnEvenSkyGivesNoLightFromBelow) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "square", {level(1, 0)}, Vec3(0.5F));
   make_smooth(scene.survey.meshes[0], Vec3(0, 0, -3), 1);
   scene.world.radiance = Vec3(1);
@@ -121,7 +121,7 @@ TEST(Recipe, AnEvenSkyGivesNoLightFromBelow) {
 }
 
 TEST(Recipe, WhatReflectsNothingBakesBlack) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(1, 0)}, Vec3(0));
   scene.world.radiance = Vec3(1);
   GatherOptions options = recipe_options("4.3.2", 16);
@@ -131,25 +131,25 @@ TEST(Recipe, WhatReflectsNothingBakesBlack) {
 }
 
 /// A floor, its left half black, under a ceiling that sends the sky's light down to it.
-Exchange half_black_floor() {
-  Exchange scene;
+DiffuseScene half_black_floor() {
+  DiffuseScene scene;
   const auto half = [](float from, float to) {
     return Quad{Vec3(from, -1, 0), Vec3(to, -1, 0), Vec3(to, 1, 0), Vec3(from, 1, 0)};
   };
   add_object(scene, "floor", {half(-1, 0), half(0, 1)}, Vec3(0));
   add_object(scene, "ceiling", {level(1, 1, false)}, Vec3(0.8F));
   scene.world.radiance = Vec3(1);
-  Look white = scene.looks[0];
+  SurfaceMaterial white = scene.materials[0];
   white.albedo = Vec3(0.5F);
-  scene.object_looks[0].push_back(static_cast<int>(scene.looks.size()));
-  scene.looks.push_back(white);
+  scene.object_materials[0].push_back(static_cast<int>(scene.materials.size()));
+  scene.materials.push_back(white);
   scene.survey.objects[0].slots.emplace_back("white");
   scene.survey.meshes[0].polygon_slot[1] = 1;
   return scene;
 }
 
 TEST(Recipe, BlackTexelsTakeNothingFromTheirNeighbours) {
-  const Exchange scene = half_black_floor();
+  const DiffuseScene scene = half_black_floor();
   constexpr int width = 8, height = 4;  // one block of texels
   GatherOptions options = recipe_options("4.3.2", 1 << 12);
   options.faults = {};

@@ -1,8 +1,8 @@
 // Surfaces that let light through: closed forms, and estimators that must agree.
 #include "trace/gather.h"
 #include "trace/moments.h"
-#include "trace/transparency.h"
 #include "trace/trace_scenes.h"
+#include "trace/transparency.h"
 #include "trace/view.h"
 
 #include <array>
@@ -16,10 +16,10 @@ namespace {
 
 const Vec3 tint(0.5F, 0.25F, 0.75F);
 
-void add_sheet(Exchange& scene, const std::vector<Quad>& quads, const Vec3& transmittance,
+void add_sheet(DiffuseScene& scene, const std::vector<Quad>& quads, const Vec3& transmittance,
                const Vec3& albedo = Vec3(0), const Vec3& emission = Vec3(0)) {
   add_object(scene, "sheet " + std::to_string(scene.survey.objects.size()), quads, albedo, emission);
-  scene.looks.back().transmittance = transmittance;
+  scene.materials.back().transmittance = transmittance;
 }
 
 /// The same surface of many quads.
@@ -40,8 +40,8 @@ std::vector<Quad> split(const std::vector<Quad>& quads, int across) {
 }
 
 /// A floor that reflects nothing, and every kind of light above it.
-Exchange lit_floor() {
-  Exchange scene;
+DiffuseScene lit_floor() {
+  DiffuseScene scene;
   add_object(scene, "floor", {level(0.5F, 0)}, Vec3(0));
   add_object(scene, "lamp", {level(0.5F, 3, false)}, Vec3(0), Vec3(4, 2, 1));
   LightInfo sun = light("SUN", 2, {{"angle", 0.1}});
@@ -55,7 +55,7 @@ Exchange lit_floor() {
 }
 
 /// Every texel has `share` of what it has in `open`, but for rounding.
-void expect_scaled(const Exchange& open, const Exchange& covered, const Vec3& share) {
+void expect_scaled(const DiffuseScene& open, const DiffuseScene& covered, const Vec3& share) {
   const Gathered before = gather_one(open, 0, all_directions(16)),
                  after = gather_one(covered, 0, all_directions(16));
   for (std::size_t k = 0; k < before.directions.size(); ++k) {
@@ -73,13 +73,13 @@ void expect_scaled(const Exchange& open, const Exchange& covered, const Vec3& sh
 }
 
 TEST(SeeThrough, BlackSheetsScaleAllLightByTheirTransmittance) {
-  Exchange covered = lit_floor();
+  DiffuseScene covered = lit_floor();
   add_sheet(covered, room(1), tint);
   expect_scaled(lit_floor(), covered, tint);
 }
 
 TEST(SeeThrough, SheetsMultiply) {
-  Exchange covered = lit_floor();
+  DiffuseScene covered = lit_floor();
   add_sheet(covered, room(1), tint);
   add_sheet(covered, room(1.5F), tint);
   add_sheet(covered, split(room(2), 24), Vec3(0.5F));
@@ -87,26 +87,26 @@ TEST(SeeThrough, SheetsMultiply) {
 }
 
 TEST(SeeThrough, CommonEdgesCountOnce) {
-  Exchange scene;
+  DiffuseScene scene;
   add_sheet(scene, {level(1, 1)}, tint);
   const TraceScene traced(scene, "4.3.2");
   for (const float along : {0.0F, 0.25F, -0.5F}) {  // the quad's diagonal
     const Visibility left = traced.visibility({{along, along, -1}, {0, 0, 1}, 2});
     EXPECT_EQ(left.transmittance, tint);
-    EXPECT_EQ(left.onward, 1) << "black";
+    EXPECT_EQ(left.transmit_probability, 1) << "black";
   }
 }
 
 TEST(SeeThrough, PicturesCutHoles) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(0.5F, 0)}, Vec3(0));
   scene.survey.lights = {light("SUN", 2, {{"angle", 0}})};
   add_sheet(scene, {level(0.5F, 1)}, Vec3(0));
-  Picture mask{4, 4, std::vector<Vec3>(16, Vec3(0)), "mask"};
+  Texture mask{4, 4, std::vector<Vec3>(16, Vec3(0)), "mask"};
   for (std::size_t i = 0; i < 16; ++i) mask.texels[i] = i % 4 < 2 ? tint : Vec3(0);  // the left half
   scene.pictures.push_back(mask);
   scene.picture_uvs.push_back(scene.survey.meshes.back().uv_layers[0].uv);
-  scene.looks.back().transmittance_picture = scene.looks.back().picture_uv = 0;
+  scene.materials.back().transmittance_picture = scene.materials.back().picture_uv = 0;
   GatherOptions centre = all_directions(4);
   centre.footprint = Footprint::centre;
   const Gathered masked = gather_one(scene, 0, centre, 4, 4);
@@ -119,9 +119,9 @@ TEST(SeeThrough, PicturesCutHoles) {
 }
 
 /// A room in which everything has the radiance (1, 2, 3), whatever its albedo and transmittance.
-Exchange partitioned_furnace() {
+DiffuseScene partitioned_furnace() {
   const Vec3 radiance(1, 2, 3), one(1);
-  Exchange scene;
+  DiffuseScene scene;
   const Vec3 wall(0.5F, 0.4F, 0.3F);
   add_object(scene, "room", room(1), wall, radiance * (one - wall));
   const auto put = [&](const Quad& quad, const Vec3& through, const Vec3& albedo) {
@@ -136,7 +136,7 @@ Exchange partitioned_furnace() {
 }
 
 /// Mean over directions and colours of the relative error, over seeds.
-Moments errors(const Exchange& scene, GatherOptions options, int seeds) {
+Moments errors(const DiffuseScene& scene, GatherOptions options, int seeds) {
   Moments all;
   for (int seed = 0; seed < seeds; ++seed) {
     options.seed = static_cast<std::uint64_t>(seed);
@@ -173,9 +173,9 @@ TEST(SeeThrough, FurnaceWithPartitionsByChanceAlone) {
 }
 
 /// Leaves over a floor: light comes through them, off them, and from one to the other.
-Exchange grove() {
-  Exchange scene = lit_floor();
-  scene.looks[0].albedo = Vec3(0.7F);
+DiffuseScene grove() {
+  DiffuseScene scene = lit_floor();
+  scene.materials[0].albedo = Vec3(0.7F);
   const Vec3 leaf(0.2F, 0.5F, 0.1F), through(0.6F, 0.4F, 0.2F);
   for (int i = 0; i < 6; ++i) {
     const float x = 0.25F * float(i % 3) - 0.4F, y = i < 3 ? -0.3F : 0.1F, z = 0.15F + 0.1F * float(i);
@@ -188,14 +188,14 @@ Exchange grove() {
 }
 
 TEST(SeeThrough, EstimatorsAgreeUnderLeaves) {
-  const Exchange scene = grove();
+  const DiffuseScene scene = grove();
   GatherOptions options = all_directions(2048);
   const Gathered shared = gather_one(scene, 0, options);
   options.seed = 1;
   options.reuse = false;
   const Gathered alone = gather_one(scene, 0, options);
   options.seed = 2;
-  options.chance_hits = false;
+  options.sample_bsdf = false;
   const Gathered sampled = gather_one(scene, 0, options);
   for (const Gathered* other : {&alone, &sampled}) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -210,12 +210,12 @@ TEST(SeeThrough, EstimatorsAgreeUnderLeaves) {
 }
 
 TEST(SeeThrough, OpacityOneIsOpaque) {
-  Exchange opaque = grove(), clear = grove();
-  for (std::size_t i = 2; i < opaque.looks.size(); ++i) opaque.looks[i].transmittance = Vec3(0);
+  DiffuseScene opaque = grove(), clear = grove();
+  for (std::size_t i = 2; i < opaque.materials.size(); ++i) opaque.materials[i].transmittance = Vec3(0);
   const Gathered before = gather_one(opaque, 0, all_directions(16));
-  for (std::size_t i = 2; i < clear.looks.size(); ++i) {  // see-through nowhere, but not known to be so
-    clear.looks[i].transmittance = Vec3(0);
-    clear.looks[i].transmittance_picture = clear.looks[i].picture_uv = 0;
+  for (std::size_t i = 2; i < clear.materials.size(); ++i) {  // see-through nowhere, but not known to be so
+    clear.materials[i].transmittance = Vec3(0);
+    clear.materials[i].transmittance_picture = clear.materials[i].picture_uv = 0;
   }
   clear.pictures.push_back({1, 1, {Vec3(0)}, "black"});
   clear.picture_uvs.push_back(std::vector<Vec2>(4));
@@ -225,7 +225,7 @@ TEST(SeeThrough, OpacityOneIsOpaque) {
 }
 
 TEST(SeeThrough, LeavesSeenFromBehindAreNoWalls) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(0.5F, 0)}, Vec3(0.5F));
   add_sheet(scene, {level(20, 1)}, Vec3(0.5F), Vec3(0.5F));  // its back is down
   scene.world.radiance = Vec3(1);
@@ -234,7 +234,7 @@ TEST(SeeThrough, LeavesSeenFromBehindAreNoWalls) {
 }
 
 TEST(SeeThrough, CamerasLookThrough) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(0.5F, 0)}, Vec3(0), Vec3(4));
   add_sheet(scene, {level(20, 1)}, tint, Vec3(0), Vec3(0, 1, 0));
   add_sheet(scene, {level(20, 2)}, Vec3(0.25F), Vec3(0.5F), Vec3(8));
@@ -258,7 +258,7 @@ TEST(SeeThrough, CamerasLookThrough) {
 }
 
 TEST(SeeThrough, CamerasSeeEachSurfaceByItsShare) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "floor", {level(9, 0)}, Vec3(0.5F));
   add_sheet(scene, {level(20, 1)}, tint, Vec3(0.25F));
   Camera camera;

@@ -26,23 +26,23 @@ SmoothTriangle cap(float side = 1) {
 TEST(Bulge, AFlatTriangleHasNone) {
   SmoothTriangle flat = cap();
   for (Vec3& normal : flat.normals) normal = Vec3(0, 0, 1);
-  EXPECT_EQ(bulge(flat, middle), Vec3(0));
+  EXPECT_EQ(terminator_offset(flat, middle), Vec3(0));
 }
 
 TEST(Bulge, ThereIsNoneAtTheCornersOfARoundedOne) {
   for (const Vec3& corner : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-    EXPECT_LT(bulge(cap(), corner).length(), 1e-6F);
+    EXPECT_LT(terminator_offset(cap(), corner).length(), 1e-6F);
   }
 }
 
 // The tangent planes of a sphere's corners meet twice as high as the sphere itself over the middle of them.
 TEST(Bulge, TheMiddleOfARoundedOneRisesToTheTangentPlanes) {
-  EXPECT_NEAR(bulge(cap(), middle).z, edge * edge / 3, 0.01 * edge * edge);
+  EXPECT_NEAR(terminator_offset(cap(), middle).z, edge * edge / 3, 0.01 * edge * edge);
 }
 
 // Raised to the far corners the planes of a bowl are edge^2 / 2 over a corner, edge^2 / 6 over the middle.
 TEST(Bulge, AHollowOneRisesToItsRim) {
-  EXPECT_NEAR(bulge(cap(-1), middle).z, edge * edge / 6, 0.01 * edge * edge);
+  EXPECT_NEAR(terminator_offset(cap(-1), middle).z, edge * edge / 6, 0.01 * edge * edge);
 }
 
 }  // namespace

@@ -30,12 +30,12 @@ Surface triangle_of(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 /// Where `count` samples of the only texel lie.
 std::vector<Vec3> places(const Surface& surface, Footprint footprint, PastEdge past_edge, int count) {
-  const Sites sites(surface, side, side, footprint, past_edge);
-  EXPECT_EQ(sites.texels().size(), 1U);
+  const TexelSamples texel_samples(surface, side, side, footprint, past_edge);
+  EXPECT_EQ(texel_samples.texels().size(), 1U);
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) {
     Sampler sampler(7, static_cast<std::uint32_t>(i));
-    result.push_back(sites.place(sites.texels().front(), sampler.next2()).position);
+    result.push_back(texel_samples.place(texel_samples.texels().front(), sampler.next2()).position);
   }
   return result;
 }
@@ -50,11 +50,11 @@ Vec3d mean_of(const std::vector<Vec3>& points) {
 // it.
 const Vec2 low(1.0F, 1.0F), right(2.04F, 1.0F), top(1.0F, 2.04F);
 
-TEST(Sites, WithinTheTriangleASampleIsWhereTheFootprintSays) {
+TEST(TexelSamples, WithinTheTriangleASampleIsWhereTheFootprintSays) {
   for (const PastEdge past_edge : {PastEdge::mirror, PastEdge::retry}) {
     const Surface surface = triangle_of(low, right, top);
-    const Sites sites(surface, side, side, Footprint::full, past_edge);
-    const Place place = sites.place(sites.texels().front(), Vec2(0.25F, 0.125F));
+    const TexelSamples texel_samples(surface, side, side, Footprint::full, past_edge);
+    const Place place = texel_samples.place(texel_samples.texels().front(), Vec2(0.25F, 0.125F));
     EXPECT_NEAR(place.position.x, 1.5 - 0.25, 1e-5);
     EXPECT_NEAR(place.position.y, 1.5 - 0.375, 1e-5);
   }
@@ -62,15 +62,15 @@ TEST(Sites, WithinTheTriangleASampleIsWhereTheFootprintSays) {
 
 // By hand: at (1.75, 1.75) the weights of low, right, top are -0.4423, 0.7212, 0.7212. The first becomes
 // 0.4423, the second is folded at what is left, 0.5577: 0.3942, the third is the rest: 0.1635.
-TEST(Sites, MirroringFoldsTheFirstWeightThenTheSecond) {
+TEST(TexelSamples, MirroringFoldsTheFirstWeightThenTheSecond) {
   const Surface surface = triangle_of(low, right, top);
-  const Sites sites(surface, side, side, Footprint::half, PastEdge::mirror);
-  const Place place = sites.place(sites.texels().front(), Vec2(1, 1));
+  const TexelSamples texel_samples(surface, side, side, Footprint::half, PastEdge::mirror);
+  const Place place = texel_samples.place(texel_samples.texels().front(), Vec2(1, 1));
   EXPECT_NEAR(place.position.x, 1 + 1.04 * 0.3942, 1e-4);
   EXPECT_NEAR(place.position.y, 1 + 1.04 * 0.1635, 1e-4);
 }
 
-TEST(Sites, RetryingSpreadsSamplesEvenlyOverWhatLiesInside) {
+TEST(TexelSamples, RetryingSpreadsSamplesEvenlyOverWhatLiesInside) {
   // Of the half texel, the corner beyond x + y = 3.04 is missing.
   const std::vector<Vec3> points =
       places(triangle_of(low, right, top), Footprint::half, PastEdge::retry, 65536);
@@ -91,7 +91,7 @@ TEST(Sites, RetryingSpreadsSamplesEvenlyOverWhatLiesInside) {
   EXPECT_NEAR(mean.y, y / count, 4 * error);
 }
 
-TEST(Sites, WhereTenTriesFailTheCentreIsTaken) {
+TEST(TexelSamples, WhereTenTriesFailTheCentreIsTaken) {
   // About 1/25 of the texel: ten tries miss it with a chance of 0.96^10.
   const Vec2 a(1.4F, 1.4F), b(1.7F, 1.4F), c(1.4F, 1.6667F);
   const std::vector<Vec3> points = places(triangle_of(a, b, c), Footprint::full, PastEdge::retry, 65536);

@@ -18,7 +18,7 @@ namespace rnmbake {
 using Quad = std::array<Vec3, 4>;
 
 /// An object of these quads, in world space; the quads share the unit square evenly, side by side.
-inline void add_object(Exchange& scene, const std::string& name, const std::vector<Quad>& quads,
+inline void add_object(DiffuseScene& scene, const std::string& name, const std::vector<Quad>& quads,
                        const Vec3& albedo, const Vec3& emission = Vec3(0)) {
   Mesh mesh;
   mesh.name = name;
@@ -48,12 +48,12 @@ inline void add_object(Exchange& scene, const std::string& name, const std::vect
   object.slots = {name};
   scene.survey.meshes.push_back(std::move(mesh));
   scene.survey.objects.push_back(object);
-  Look look;
-  look.material = name;
-  look.albedo = albedo;
-  look.emission = emission;
-  scene.object_looks.push_back({static_cast<int>(scene.looks.size())});
-  scene.looks.push_back(look);
+  SurfaceMaterial material;
+  material.name = name;
+  material.albedo = albedo;
+  material.emission = emission;
+  scene.object_materials.push_back({static_cast<int>(scene.materials.size())});
+  scene.materials.push_back(material);
 }
 
 /// A square in the plane z = height that faces up, or down.
@@ -83,7 +83,7 @@ inline LightInfo light(const std::string& type, double energy, std::map<std::str
 }
 
 /// In the space of a TraceScene.
-inline Surface surface_of(const Exchange& scene, std::size_t object) {
+inline Surface surface_of(const DiffuseScene& scene, std::size_t object) {
   const SceneObject& it = scene.survey.objects[object];
   const Mesh& mesh = scene.survey.mesh_of(it);
   std::vector<std::uint32_t> all(mesh.triangles());
@@ -106,7 +106,7 @@ inline GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
 }
 
 /// Gathers for one object of the scene, in the units of Blender 4.3.
-inline Gathered gather_one(const Exchange& scene, std::size_t object, const GatherOptions& options,
+inline Gathered gather_one(const DiffuseScene& scene, std::size_t object, const GatherOptions& options,
                            int width = 8, int height = 8) {
   const TraceScene traced(scene, "4.3.2");
   const Surface surface = surface_of(scene, object);

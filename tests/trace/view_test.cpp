@@ -94,7 +94,7 @@ TEST(CameraRays, FollowTheCamerasMatrix) {
 
 // The ground is 1.5 units wide in a picture of 3: the middle half of each side, edges half-way into a pixel.
 TEST(View, CountsTheShareOfSurfaceAndShowsTheWorldElsewhere) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "ground", {level(0.75F, 0)}, Vec3(0.5F, 0.25F, 0), Vec3(2, 0, 0));
   scene.world.radiance = Vec3(0, 0, 7);
   const TraceScene traced(scene, "4.3.2");
@@ -110,7 +110,7 @@ TEST(View, CountsTheShareOfSurfaceAndShowsTheWorldElsewhere) {
 }
 
 TEST(View, LooksThroughWhatCamerasDoNotSee) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "ground", {level(4, 0)}, Vec3(0.5F));
   add_object(scene, "ghost", {level(4, 1)}, Vec3(1), Vec3(9));
   add_object(scene, "other ghost", {level(4, 1.5F, false)}, Vec3(1), Vec3(9));
@@ -123,7 +123,7 @@ TEST(View, LooksThroughWhatCamerasDoNotSee) {
 }
 
 TEST(View, IsTheSameAtAnyNumberOfThreadsAndOtherForAnotherSeed) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "room", room(4), Vec3(0.5F), Vec3(1));
   const TraceScene traced(scene, "4.3.2");
   const ReflectedLight lit = [&](const Vertex& vertex, Sampler& sampler) {
@@ -140,7 +140,7 @@ TEST(View, IsTheSameAtAnyNumberOfThreadsAndOtherForAnotherSeed) {
 }
 
 TEST(View, SaysHowFarItIsAndStops) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "ground", {level(1, 0)}, Vec3(0.5F));
   const TraceScene traced(scene, "4.3.2");
   double last = 0;

@@ -26,24 +26,24 @@ nlohmann::json launch(SurveySession& session, const fs::path& scene, const char*
   return std::get<Finished>(outcome).result;
 }
 
-Exchange export_blend(SurveySession& session, const fs::path& scene) {
+DiffuseScene export_blend(SurveySession& session, const fs::path& scene) {
   const std::string blend = launch(session, scene, "lambert_entry.py").at("blend");
   const std::string survey = launch(session, session.last_folder() / blend, "export_entry.py").at("survey");
   return read_exported(session.last_folder() / survey);
 }
 
-const Picture& world_picture(const Exchange& scene) {
+const Texture& world_picture(const DiffuseScene& scene) {
   return scene.pictures.at(static_cast<std::size_t>(scene.world.picture));
 }
 
-Vec3 texel(const Picture& picture, const Vec2& uv) {
+Vec3 texel(const Texture& picture, const Vec2& uv) {
   const auto x = static_cast<std::size_t>(uv.x * float(picture.width));
   const auto y = static_cast<std::size_t>((1 - uv.y) * float(picture.height));
   return picture.texels[std::min(y, std::size_t(picture.height - 1)) * std::size_t(picture.width) + x];
 }
 
 /// E/pi that a picture of the world gives to a surface with that normal: the sum over all texels.
-Vec3d light_from(const Picture& picture, const Vec3& normal) {
+Vec3d light_from(const Texture& picture, const Vec3& normal) {
   Vec3d sum(0);
   for (int y = 0; y < picture.height; ++y) {
     const double top = pi * y / picture.height, bottom = pi * (y + 1) / picture.height;
@@ -60,7 +60,7 @@ Vec3d light_from(const Picture& picture, const Vec3& normal) {
 
 /// Every face of a cube has the light that Cycles bakes on it: within five standard errors of the bake, and
 /// 0.1 % for the texels of the picture.
-void compare_with_bake(const Exchange& scene, const fs::path& baked) {
+void compare_with_bake(const DiffuseScene& scene, const fs::path& baked) {
   const nlohmann::json faces = nlohmann::json::parse(std::ifstream(baked));
   ASSERT_EQ(faces.size(), 6U);
   for (const auto& face : faces) {
@@ -74,7 +74,7 @@ void compare_with_bake(const Exchange& scene, const fs::path& baked) {
   }
 }
 
-const Words* outside(const Exchange& scene, const std::string& owner) {
+const Words* outside(const DiffuseScene& scene, const std::string& owner) {
   const auto found = std::find_if(scene.outside.begin(), scene.outside.end(),
                                   [&](const OutsideModel& one) { return one.owner == owner; });
   return found == scene.outside.end() ? nullptr : &found->what;
@@ -92,7 +92,7 @@ class ExportWithBlender : public testing::Test {
 std::unique_ptr<SurveySession> ExportWithBlender::session;
 
 TEST_F(ExportWithBlender, WorldPictureLiesAsCyclesReadsIt) {
-  const Exchange scene = export_blend(*session, session->file("picture.blend"));
+  const DiffuseScene scene = export_blend(*session, session->file("picture.blend"));
   ASSERT_GE(scene.world.picture, 0);
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 8; ++column) {  // the picture's own cells, twice as bright
@@ -107,42 +107,42 @@ TEST_F(ExportWithBlender, WorldPictureLiesAsCyclesReadsIt) {
 }
 
 TEST_F(ExportWithBlender, SkyWithSunGivesTheLightThatCyclesBakes) {
-  const Exchange scene = export_blend(*session, session->file("sky.blend"));
+  const DiffuseScene scene = export_blend(*session, session->file("sky.blend"));
   ASSERT_GE(scene.world.picture, 0);
   compare_with_bake(scene, session->file("sky.json"));
   EXPECT_EQ(outside(scene, "world"), nullptr);
 }
 
 TEST_F(ExportWithBlender, CarriesEveryThingOrSaysThatItDoesNot) {
-  const Exchange scene = export_blend(*session, session->file("things.blend"));
+  const DiffuseScene scene = export_blend(*session, session->file("things.blend"));
   const auto number = [&](const char* key) {
     return static_cast<std::size_t>(find_object(scene.survey, key) - scene.survey.objects.data());
   };
   ASSERT_EQ(scene.survey.objects.size(), 7U);
 
-  const Look& mapped = scene.look(number("mapped"), 0);
+  const SurfaceMaterial& mapped = scene.material(number("mapped"), 0);
   ASSERT_GE(mapped.normal_map, 0);
   const NormalMap& map = scene.normal_maps[std::size_t(mapped.normal_map)];
   EXPECT_EQ(map.uv_layer, "second");
   EXPECT_FLOAT_EQ(map.strength, 0.5F);
-  const Picture& normals = scene.pictures[std::size_t(map.picture)];
+  const Texture& normals = scene.pictures[std::size_t(map.picture)];
   EXPECT_EQ(normals.width, 4);
   EXPECT_EQ(normals.height, 2);
   EXPECT_NEAR(normals.texels[0].x, 4 / 7.0, 0.004) << "the top row comes first";
   EXPECT_NEAR(normals.texels[7].x, 3 / 7.0, 0.004);
   EXPECT_NEAR(normals.texels[0].z, 0.8, 0.004);
-  const Look& by_default = scene.look(number("mapped_default"), 0);
+  const SurfaceMaterial& by_default = scene.material(number("mapped_default"), 0);
   ASSERT_GE(by_default.normal_map, 0);
   EXPECT_EQ(scene.normal_maps[std::size_t(by_default.normal_map)].uv_layer, "");
   EXPECT_EQ(scene.normal_maps[std::size_t(by_default.normal_map)].picture, map.picture);
-  EXPECT_EQ(scene.look(number("bumped"), 0).normal_map, -1);
+  EXPECT_EQ(scene.material(number("bumped"), 0).normal_map, -1);
   EXPECT_EQ(outside(scene, "object 'mapped'"), nullptr);
   ASSERT_NE(outside(scene, "object 'bumped'"), nullptr);
   EXPECT_EQ(*outside(scene, "object 'bumped'"), Words{"bump"});
   ASSERT_NE(outside(scene, "object 'glass'"), nullptr);
   EXPECT_EQ(*outside(scene, "object 'glass'"), Words{"glass"});
 
-  const Look& glowing = scene.look(number("glowing"), 0);
+  const SurfaceMaterial& glowing = scene.material(number("glowing"), 0);
   EXPECT_EQ(glowing.emission_picture, -1);
   EXPECT_LT((glowing.emission - Vec3(2, 4, 1)).length(), 1e-5F);
   EXPECT_EQ(glowing.albedo, Vec3(0, 0, 0));
@@ -179,19 +179,20 @@ TEST_F(ExportWithBlender, BuiltScenesAreWhole) {
   const auto panels = export_built("panels", session->file("panels.rnmscene"));
   EXPECT_EQ(panels.at("lights"), 4);
   EXPECT_GT(panels.at("normal_maps").get<int>(), 0);
-  const Exchange scene = read_exchange(session->file("panels.rnmscene"));
+  const DiffuseScene scene = read_diffuse_scene(session->file("panels.rnmscene"));
   EXPECT_EQ(scene.survey.objects.size(), panels.at("objects").get<std::size_t>());
   EXPECT_TRUE(scene.camera);
   EXPECT_NEAR(scene.world.radiance.z, 0.55 * 0.9, 1e-5);
-  for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) EXPECT_GE(scene.look(i, 0).normal_map, 0);
+  for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) EXPECT_GE(scene.material(i, 0).normal_map, 0);
 
   const auto cornell = export_built("cornell", session->file("cornell.rnmscene"));
   EXPECT_EQ(cornell.at("pictures"), 0);
   EXPECT_EQ(cornell.at("outside_model"), nlohmann::json::array());
-  const Exchange box = read_exchange(session->file("cornell.rnmscene"));
-  const bool glows = std::any_of(box.looks.begin(), box.looks.end(),
-                                 [](const Look& look) { return look.emission.length() > 0; });
-  EXPECT_TRUE(glows);
+  const DiffuseScene box = read_diffuse_scene(session->file("cornell.rnmscene"));
+  const bool emissive_triangles =
+      std::any_of(box.materials.begin(), box.materials.end(),
+                  [](const SurfaceMaterial& material) { return material.emission.length() > 0; });
+  EXPECT_TRUE(emissive_triangles);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ nlohmann::json lambert(SurveySession& session, const fs::path& scene) {
 TEST(LambertWithBlender, KeepsEverythingThatASurveySees) {
   SurveySession session;
   session.build("survey_cases.py", {session.file("cases.blend").string()});
-  const Survey before = session.survey(session.file("cases.blend"));
+  const SceneSurvey before = session.survey(session.file("cases.blend"));
   const std::string blend = lambert(session, session.file("cases.blend")).at("blend");
-  const Survey after = session.survey(session.last_folder() / blend);
+  const SceneSurvey after = session.survey(session.last_folder() / blend);
 
   EXPECT_EQ(after.objects.size(), before.objects.size());
   EXPECT_EQ(after.lights.size(), before.lights.size());
@@ -166,9 +166,9 @@ TEST_P(LambertOnRealScenes, LeavesOnlyPlainMaterials) {
   const fs::path scene = fs::path(RNMBAKE_SOURCE_DIR) / "../shared/scenes" / GetParam();
   if (!fs::exists(scene)) GTEST_SKIP() << scene << " is not there";
   SurveySession session;
-  const Survey before = session.survey(scene);
+  const SceneSurvey before = session.survey(scene);
   const std::string blend = lambert(session, scene).at("blend");
-  const Survey after = session.survey(session.last_folder() / blend);
+  const SceneSurvey after = session.survey(session.last_folder() / blend);
   EXPECT_EQ(after.objects.size(), before.objects.size());
   for (const SceneObject& object : before.objects) EXPECT_NE(find_object(after, object.key), nullptr);
   for (const auto& [name, material] : after.materials) EXPECT_TRUE(material.outside_model.empty()) << name;

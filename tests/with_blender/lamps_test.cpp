@@ -39,7 +39,7 @@ Vec3 vector_of(const json& values) {
 TEST(LampsWithBlender, EachGivesWhatABakeShows) {
   SurveySession session;
   session.build("lamp_cases.py", {session.file("lamps.blend").string(), session.file("lamps.json").string()});
-  const Survey survey = session.survey(session.file("lamps.blend"));
+  const SceneSurvey survey = session.survey(session.file("lamps.blend"));
   const json measured = json::parse(read_text(session.file("lamps.json")));
   const json& quads = measured.at("quads");
   ASSERT_EQ(measured.at("lamps").size(), survey.lights.size());
@@ -49,7 +49,7 @@ TEST(LampsWithBlender, EachGivesWhatABakeShows) {
                                    [&](const LightInfo& light) { return light.name == name; });
     ASSERT_NE(info, survey.lights.end()) << name;
     EXPECT_TRUE(info->outside_model.empty()) << name;
-    Exchange scene;
+    DiffuseScene scene;
     scene.survey.lights = {*info};
     const Triangles nothing;
     const Lights lights(scene, nothing, survey.blender_version);

@@ -82,7 +82,7 @@ TEST_F(RefusalsWithBlender, NameAShaderProgram) {
 }
 
 TEST_F(RefusalsWithBlender, AreNotMadeForFilesThatCannotBeHad) {
-  const Survey survey = session_->survey(session_->file("lost_files.blend"));
+  const SceneSurvey survey = session_->survey(session_->file("lost_files.blend"));
   ASSERT_EQ(survey.warnings.size(), 3U);
   EXPECT_TRUE(survey.warnings[0].starts_with("picture missing: ")) << survey.warnings[0];
   EXPECT_NE(survey.warnings[0].find("lost.png"), std::string::npos);

@@ -90,7 +90,7 @@ TEST_F(SceneStateWithBlender, TrueDisplacementMovesReceiversToo) {
   EXPECT_GT(covered, 8);
   EXPECT_NE(said.find("object 'Plane': material 'raised' displaces it as it renders"), std::string::npos)
       << said;
-  const Survey survey = session_->survey(session_->file("displaced.blend"));
+  const SceneSurvey survey = session_->survey(session_->file("displaced.blend"));
   for (const Vec3& position : survey.meshes.at(0).positions) EXPECT_NEAR(position.z, 0.1, 1e-6);
   EXPECT_EQ(survey.meshes.at(0).triangles(), 4U);
 }

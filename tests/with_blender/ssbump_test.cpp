@@ -1,12 +1,12 @@
 // rnmbake ssbump with Blender: meshes read from files, and height maps baked by Cycles. Scenes:
 // scenes/ssbump_cases.py.
 #include "base/error.h"
-#include "encoding/rnm.h"
-#include "config/resolve.h"
+#include "blender/blender_session.h"
 #include "blender/late_blender.h"
+#include "config/resolve.h"
+#include "encoding/rnm.h"
 #include "pipeline/ssbump/ssbump_blender.h"
 #include "pipeline/ssbump/ssbump_mesh.h"
-#include "blender/blender_session.h"
 #include "ssbump/generate/generate.h"
 #include "with_blender/survey_session.h"
 
@@ -212,8 +212,8 @@ void expect_the_horizon(const HeightField& field) {
 TEST(SsbumpBlender, TheSkyAgreesWithTheHorizon) {
   HeightField field = waves(12);
   expect_the_horizon(field);
-  field.x = Beyond::mirror;
-  field.y = Beyond::none;
+  field.x = WrapMode::mirror;
+  field.y = WrapMode::none;
   expect_the_horizon(field);
 }
 

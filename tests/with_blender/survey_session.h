@@ -52,7 +52,7 @@ class SurveySession {
     return launch(last_folder_ / blend, entry);
   }
 
-  Survey survey(const std::filesystem::path& scene) {
+  SceneSurvey survey(const std::filesystem::path& scene) {
     const LaunchOutcome outcome = launch(scene);
     if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
       fail(ExitCode::tasks_failed, "{} {}", failure->message, failure->details);
@@ -83,7 +83,7 @@ class SurveySession {
   int launches_ = 0;
 };
 
-inline const SceneObject* find_object(const Survey& survey, const std::string& key) {
+inline const SceneObject* find_object(const SceneSurvey& survey, const std::string& key) {
   const auto found = std::find_if(survey.objects.begin(), survey.objects.end(),
                                   [&](const SceneObject& object) { return object.key == key; });
   return found == survey.objects.end() ? nullptr : &*found;

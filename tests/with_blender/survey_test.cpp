@@ -19,7 +19,7 @@ class SurveyWithBlender : public testing::Test {
   static void SetUpTestSuite() {
     SurveySession session;
     session.build("survey_cases.py", {session.file("cases.blend").string()});
-    survey_ = std::make_unique<Survey>(session.survey(session.file("cases.blend")));
+    survey_ = std::make_unique<SceneSurvey>(session.survey(session.file("cases.blend")));
   }
   static void TearDownTestSuite() { survey_.reset(); }
 
@@ -36,10 +36,10 @@ class SurveyWithBlender : public testing::Test {
     return result;
   }
 
-  static std::unique_ptr<Survey> survey_;
+  static std::unique_ptr<SceneSurvey> survey_;
 };
 
-std::unique_ptr<Survey> SurveyWithBlender::survey_;
+std::unique_ptr<SceneSurvey> SurveyWithBlender::survey_;
 
 TEST_F(SurveyWithBlender, TurnsCurvesTextsAndMetaballsIntoOneMeshEach) {
   for (const auto& [key, type] :
@@ -142,7 +142,7 @@ TEST_F(SurveyWithBlender, KnowsLights) {
 TEST(SurveyOfACloud, NamesItsVolumeAndNoObject) {
   SurveySession session;
   session.build("cloud_case.py", {session.file("cloud.blend").string()});
-  const Survey survey = session.survey(session.file("cloud.blend"));
+  const SceneSurvey survey = session.survey(session.file("cloud.blend"));
   EXPECT_EQ(survey.objects.size(), 1U);
   ASSERT_EQ(survey.warnings.size(), 1U);
   EXPECT_TRUE(survey.warnings[0].starts_with("material 'smoke' has a volume; ")) << survey.warnings[0];

@@ -22,7 +22,7 @@ double degrees(const Vec3d& a, const Vec3d& b) {
   return std::atan2(a.cross(b).length(), a.dot(b)) * 180 / pi;
 }
 
-Angles compare(const Survey& survey, const SceneObject& object, const nlohmann::json& theirs) {
+Angles compare(const SceneSurvey& survey, const SceneObject& object, const nlohmann::json& theirs) {
   const Mesh& mesh = survey.mesh_of(object);
   const std::vector<Vec2>& uv = mesh.uv_layers.at(static_cast<std::size_t>(mesh.active_uv)).uv;
   const TangentFrames frames = tangent_frames(mesh, uv, object.to_world);
@@ -45,7 +45,7 @@ Angles compare(const Survey& survey, const SceneObject& object, const nlohmann::
 TEST(TangentsWithBlender, AreThoseOfTheReferenceCode) {
   SurveySession session;
   session.build("tangent_cases.py", {session.file("t.blend").string(), session.file("t.json").string()});
-  const Survey survey = session.survey(session.file("t.blend"));
+  const SceneSurvey survey = session.survey(session.file("t.blend"));
   const auto theirs = nlohmann::json::parse(read_text(session.file("t.json")));
   ASSERT_EQ(survey.objects.size(), 5U);
   for (const SceneObject& object : survey.objects) {

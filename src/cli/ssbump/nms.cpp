@@ -4,10 +4,10 @@
 #include "base/log.h"
 #include "image/picture_rows.h"
 #include "lightmap/decode.h"
-#include "ssbump/normal_shadows/lightmap_shadows.h"
 #include "ssbump/map/normal_map.h"
-#include "ssbump/normal_shadows/normal_shadows.h"
 #include "ssbump/map/slope_curl.h"
+#include "ssbump/normal_shadows/lightmap_shadows.h"
+#include "ssbump/normal_shadows/normal_shadows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-// cli/ssbump/nms.h - the command `rnmbake nms`: normal mapping shadows, and whether a normal map is good for them.
+// cli/ssbump/nms.h - the command `rnmbake nms`: normal mapping shadows, and whether a normal map is good for
+// them.
 #pragma once
 
 #include <functional>

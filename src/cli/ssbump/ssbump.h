@@ -1,4 +1,5 @@
-// cli/ssbump/ssbump.h - the command `rnmbake ssbump`: a height map becomes a self-shadowed bump map; and its tools.
+// cli/ssbump/ssbump.h - the command `rnmbake ssbump`: a height map becomes a self-shadowed bump map; and its
+// tools.
 #pragma once
 
 #include <functional>

@@ -22,20 +22,20 @@ void check_not_negative(const char* flag, const std::optional<double>& value) {
          *value);
 }
 
-std::optional<Beyond> axis_named(const std::string& word) {
-  if (word == "wrap") return Beyond::wrap;
-  if (word == "mirror") return Beyond::mirror;
-  if (word == "none") return Beyond::none;
+std::optional<WrapMode> axis_named(const std::string& word) {
+  if (word == "wrap") return WrapMode::wrap;
+  if (word == "mirror") return WrapMode::mirror;
+  if (word == "none") return WrapMode::none;
   return std::nullopt;
 }
 
 }  // namespace
 
-void parse_wrap(const std::string& text, Beyond& x, Beyond& y) {
-  x = y = Beyond::none;
-  if (text == "x" || text == "x,y" || text == "y,x") x = Beyond::wrap;
-  if (text == "y" || text == "x,y" || text == "y,x") y = Beyond::wrap;
-  if (x == Beyond::wrap || y == Beyond::wrap) return;
+void parse_wrap(const std::string& text, WrapMode& x, WrapMode& y) {
+  x = y = WrapMode::none;
+  if (text == "x" || text == "x,y" || text == "y,x") x = WrapMode::wrap;
+  if (text == "y" || text == "x,y" || text == "y,x") y = WrapMode::wrap;
+  if (x == WrapMode::wrap || y == WrapMode::wrap) return;
   const auto comma = text.find(',');
   const auto first = axis_named(text.substr(0, comma));
   const auto second = comma == std::string::npos ? first : axis_named(text.substr(comma + 1));

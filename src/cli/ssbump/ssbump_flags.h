@@ -51,6 +51,6 @@ class SsbumpFlags {
 };
 
 /// "x,y", "x", "y", "none", "mirror", or one word for each axis such as "mirror,none". Throws Error(usage).
-void parse_wrap(const std::string& text, Beyond& x, Beyond& y);
+void parse_wrap(const std::string& text, WrapMode& x, WrapMode& y);
 
 }  // namespace rnmbake

@@ -1,5 +1,5 @@
-// cli/ssbump/ssbump_mesh_flags.h - flags of rnmbake ssbump that need Blender: detail from meshes, height maps by
-// Cycles.
+// cli/ssbump/ssbump_mesh_flags.h - flags of rnmbake ssbump that need Blender: detail from meshes, height maps
+// by Cycles.
 #pragma once
 
 #include "config/resolve.h"

@@ -25,7 +25,7 @@ void SsbumpInputFlags::add_to(CLI::App& command, const char* what) {
       ->type_name("none|up|ao");
 }
 
-SsbumpTold SsbumpInputFlags::told() const {
+SsbumpHints SsbumpInputFlags::hints() const {
   return {scale_named(scale), handed_named(handed), alpha_named(alpha)};
 }
 

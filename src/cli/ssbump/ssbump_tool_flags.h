@@ -18,8 +18,8 @@ struct SsbumpInputFlags {
   std::string scale, handed, alpha;
 
   void add_to(CLI::App& command, const char* what = "self-shadowed bump map");
-  [[nodiscard]] SsbumpTold told() const;
-  [[nodiscard]] SsbumpPicture read() const { return read_ssbump(file, told()); }
+  [[nodiscard]] SsbumpHints hints() const;
+  [[nodiscard]] SsbumpPicture read() const { return read_ssbump(file, hints()); }
 };
 
 /// What is written.

@@ -5,8 +5,8 @@
 #include "base/text.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/manifest.h"
-#include "pipeline/scene/save_scene.h"
 #include "pipeline/lightmaps/target_facts.h"
+#include "pipeline/scene/save_scene.h"
 #include "scene/lighting.h"
 
 #include <algorithm>
@@ -76,12 +76,12 @@ class BakeRun {
     make_plan();
     const BakeContext context{subject_.survey, list_.targets, bases_, plan_};
     log::info("baking {} x {} in {} of Blender {}", counted(list_.targets.size(), "lightmap"),
-              counted(bases_.size(), "basis"), counted(plan_.dispatches.size(), "launch"),
+              counted(bases_.size(), "basis"), counted(plan_.batches.size(), "launch"),
               workspace_.blender().info().version_text);
-    DeliveryDesk desk(context, settings_.output, notes_);
+    BakeCollector collector(context, settings_.output, notes_);
     BakeOutcome outcome;
-    outcome.timings = run_dispatches(workspace_, context, subject_.blends.shown, desk);
-    outcome.deliveries = desk.deliveries();
+    outcome.timings = run_batches(workspace_, context, subject_.blends.shown, collector);
+    outcome.deliveries = collector.deliveries();
     if (may_be_lit(subject_.survey)) warn_of_black(list_.targets, outcome.deliveries);
     write_records(outcome);
     return outcome;
@@ -104,7 +104,7 @@ class BakeRun {
       plan_target(i);
     }
     lost_.warn();
-    group_units(plan_, resolve_dispatch(settings_.bake));
+    group_tasks(plan_, resolve_dispatch(settings_.bake));
     warn_of_coarse();
     if (by_receiver()) warn_of_shadowless();
   }
@@ -155,7 +155,7 @@ class BakeRun {
     const Target& target = list_.targets[i];
     CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
     cycles.glowing = by_receiver() && !target.glowing.empty();
-    if (!by_receiver()) add_object_units(plan_, i, target, bases_, cycles);
+    if (!by_receiver()) add_object_tasks(plan_, i, target, bases_, cycles);
     if (!by_receiver() && !settings_.output.frames) return;
 
     const auto surface = std::make_shared<const Surface>(surface_of(subject_.survey, target, lost_));
@@ -164,13 +164,13 @@ class BakeRun {
       std::vector<BasisDirection> bases = bases_;
       for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
       const Vec2 map(float(target.width), float(target.height));
-      Sheets sheets = make_sheets(*surface, bases, list_.settings[i].horizon, map);
+      ReceiverPasses passes = make_receiver_passes(*surface, bases, list_.settings[i].horizon, map);
       plan_.fences[i] = make_fences(*surface, lights_, map);
       heights_[i] = height_in_texels(*surface, map);
       if (heights_[i] > coarse_height) coarse_.push_back({i, distance_of(*surface)});
-      horizons_[i] = sheets.counts;
-      keep_surface |= sheets.sheets.size() > bases.size();
-      add_receiver_units(plan_, i, target, std::move(sheets), bases_, cycles);
+      horizons_[i] = passes.counts;
+      keep_surface |= passes.passes.size() > bases.size();
+      add_receiver_tasks(plan_, i, target, std::move(passes), bases_, cycles);
     }
     if (keep_surface) notes_[i].surface = surface;
   }
@@ -189,7 +189,7 @@ class BakeRun {
   const TargetList& list_;
   const std::vector<BasisDirection>& bases_;
   Plan plan_;
-  std::vector<DeliveryNote> notes_;
+  std::vector<LightmapHeader> notes_;
   std::vector<HorizonCounts> horizons_;
   LostDirections lost_;
   std::vector<double> heights_;

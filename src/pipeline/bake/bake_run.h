@@ -1,13 +1,13 @@
 // pipeline/bake/bake_run.h - one bake by Blender: from targets to lightmaps and manifest.
 #pragma once
 
+#include "blender/blender_session.h"
 #include "encoding/basis_set.h"
-#include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/bake/dispatcher.h"
+#include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
 #include "pipeline/scene/make_targets.h"
 #include "pipeline/scene/scene_survey.h"
-#include "blender/blender_session.h"
 #include "scene/survey.h"
 
 #include <vector>
@@ -22,7 +22,7 @@ struct BakeOutcome {
 
 /// What is baked, in which file. Several bakes of one scene share it.
 struct BakeSubject {
-  const Survey& survey;
+  const SceneSurvey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
   SceneBlends blends;             // `shown` is baked, `own` saved with new UVs

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/work_progress.h"
 #include "blender/launch_watch.h"
 #include "pipeline/bake/memory.h"
 #include "pipeline/scene/scene_survey.h"
-#include "base/work_progress.h"
 #include "process/stop.h"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Task {
-  Dispatch dispatch;
+struct Attempt {
+  Batch batch;
   int retries_left = 0;
 };
 
@@ -37,12 +37,12 @@ bool is_before_baking(const LaunchFailure& failure) {
 }
 
 /// Texels x samples: what the time of a bake is proportional to.
-double work_of(const Dispatch& dispatch, const Plan& plan) {
+double work_of(const Batch& batch, const Plan& plan) {
   double work = 0;
-  for (const std::size_t unit : dispatch.units) {
-    for (const std::size_t tile : plan.units[unit].tiles) {
-      const TileSize size = plan.tiles[tile].size;
-      work += double(size.width) * size.height * plan.units[unit].cycles.samples;
+  for (const std::size_t task : batch.tasks) {
+    for (const std::size_t rect : plan.tasks[task].rects) {
+      const RectSize size = plan.rects[rect].size;
+      work += double(size.width) * size.height * plan.tasks[task].cycles.samples;
     }
   }
   return work;
@@ -50,21 +50,21 @@ double work_of(const Dispatch& dispatch, const Plan& plan) {
 
 double total_work(const Plan& plan) {
   double work = 0;
-  for (const Dispatch& dispatch : plan.dispatches) work += work_of(dispatch, plan);
+  for (const Batch& batch : plan.batches) work += work_of(batch, plan);
   return work;
 }
 
 class Dispatcher {
  public:
-  Dispatcher(Workspace& workspace, const BakeContext& context, BlendPath blend, DeliveryDesk& desk)
+  Dispatcher(Workspace& workspace, const BakeContext& context, BlendPath blend, BakeCollector& collector)
       : workspace_(workspace),
         context_(context),
         blend_(std::move(blend)),
-        desk_(desk),
-        jobs_(choose_jobs(workspace.settings(), context.plan.dispatches.size())),
+        collector_(collector),
+        jobs_(choose_jobs(workspace.settings(), context.plan.batches.size())),
         progress_(total_work(context.plan)) {
-    for (const Dispatch& dispatch : context.plan.dispatches) {
-      queue_.push_back({dispatch, workspace.settings().run.retries});
+    for (const Batch& batch : context.plan.batches) {
+      queue_.push_back({batch, workspace.settings().run.retries});
     }
   }
 
@@ -91,9 +91,9 @@ class Dispatcher {
   }
 
   void work() {
-    while (auto task = next()) {
+    while (auto attempt = next()) {
       try {
-        run_task(*task);
+        run_attempt(*attempt);
       } catch (...) {
         const std::lock_guard lock(mutex_);
         if (!error_) error_ = std::current_exception();
@@ -104,46 +104,46 @@ class Dispatcher {
     }
   }
 
-  std::optional<Task> next() {
+  std::optional<Attempt> next() {
     std::unique_lock lock(mutex_);
     // A running task may still split, so an empty queue alone is not the end.
     changed_.wait(lock, [this] { return error_ || !queue_.empty() || running_ == 0; });
     if (error_ || queue_.empty()) return std::nullopt;
-    Task task = std::move(queue_.front());
+    Attempt attempt = std::move(queue_.front());
     queue_.pop_front();
     ++running_;
-    return task;
+    return attempt;
   }
 
-  void run_task(Task task) {
-    drop_settled(task.dispatch);
-    if (task.dispatch.units.empty() || given_up(task.dispatch)) return;
+  void run_attempt(Attempt attempt) {
+    drop_settled(attempt.batch);
+    if (attempt.batch.tasks.empty() || given_up(attempt.batch)) return;
     Launch launch;
     launch.entry = "bake_entry.py";
     launch.scene = blend_;
     launch.folder = workspace_.new_folder("bake");
     launch.threads = workspace_.threads(jobs_);
-    BakeRequest request = make_request(task.dispatch, launch.folder);
+    BakeRequest request = make_request(attempt.batch, launch.folder);
     launch.request = std::move(request.json);
     launch.request.update(scene_request(workspace_, blend_.path()));
     const LaunchOutcome outcome = workspace_.blender().run(
-        launch, workspace_.limits(), [&](const ProgressEvent& event) { show(task.dispatch, event); });
+        launch, workspace_.limits(), [&](const ProgressEvent& event) { show(attempt.batch, event); });
     if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
-      recover(std::move(task), *failure);
-    } else if (auto tiles = tiles_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&tiles)) {
-      recover(std::move(task), *lost);
+      recover(std::move(attempt), *failure);
+    } else if (auto rects = rects_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&rects)) {
+      recover(std::move(attempt), *lost);
     } else {
-      desk_.take(task.dispatch, request.layout, std::get<0>(std::move(tiles)));
-      count(task.dispatch, std::get<Finished>(outcome));
+      collector_.take(attempt.batch, request.layout, std::get<0>(std::move(rects)));
+      count(attempt.batch, std::get<Finished>(outcome));
     }
     if (!workspace_.settings().output.keep_temporary) fs::remove_all(launch.folder);
   }
 
   /// A launch whose pictures are missing or short failed, whatever it said; a smaller one may do.
-  std::variant<std::vector<FloatImage>, LaunchFailure> tiles_of(const DispatchLayout& layout,
+  std::variant<std::vector<FloatImage>, LaunchFailure> rects_of(const BatchLayout& layout,
                                                                 const fs::path& folder) const {
     try {
-      return read_tiles(layout, context_.plan, folder);
+      return read_rects(layout, context_.plan, folder);
     } catch (const Error& error) {
       LaunchFailure failure;
       failure.message = error.what();
@@ -151,37 +151,36 @@ class Dispatcher {
     }
   }
 
-  BakeRequest make_request(const Dispatch& dispatch, const fs::path& folder) const {
+  BakeRequest make_request(const Batch& batch, const fs::path& folder) const {
     const BakeSettings& settings = workspace_.settings();
     if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map) {
-      return object_request(context_, dispatch, settings.bake.correct_bump, folder);
+      return object_request(context_, batch, settings.bake.correct_bump, folder);
     }
-    return receiver_request(context_, dispatch, atlas_pixels_for(settings, context_, dispatch, jobs_),
-                            folder);
+    return receiver_request(context_, batch, atlas_pixels_for(settings, context_, batch, jobs_), folder);
   }
 
   /// A target that was given up takes its other units with it.
-  void drop_settled(Dispatch& dispatch) const {
-    std::erase_if(dispatch.units,
-                  [&](std::size_t unit) { return desk_.is_settled(context_.plan.units[unit].target); });
+  void drop_settled(Batch& batch) const {
+    std::erase_if(batch.tasks,
+                  [&](std::size_t task) { return collector_.is_settled(context_.plan.tasks[task].target); });
   }
 
-  void recover(Task task, const LaunchFailure& failure) {
-    progress_.finish(task.dispatch.units.front(), 0);
+  void recover(Attempt attempt, const LaunchFailure& failure) {
+    progress_.finish(attempt.batch.tasks.front(), 0);
     if (is_hopeless(failure)) throw_failure(failure);
     if (!failure.details.empty()) log::debug("{}", failure.details);
     note_failure(failure);
-    if (given_up(task.dispatch)) return;
-    if (task.dispatch.units.size() > 1 && !is_before_baking(failure)) return divide(task, failure);
-    const Unit& unit = context_.plan.units[task.dispatch.units.front()];
+    if (given_up(attempt.batch)) return;
+    if (attempt.batch.tasks.size() > 1 && !is_before_baking(failure)) return divide(attempt, failure);
+    const BakeTask& task = context_.plan.tasks[attempt.batch.tasks.front()];
     const bool may_differ =
         failure.kind != LaunchFailure::Kind::refused && failure.kind != LaunchFailure::Kind::outlasted;
-    if (may_differ && task.retries_left > 0) {
-      log::warn("{} ({}): {}; trying again", context_.targets[unit.target].key, unit.name, describe(failure));
-      enqueue({std::move(task.dispatch), task.retries_left - 1});
+    if (may_differ && attempt.retries_left > 0) {
+      log::warn("{} ({}): {}; trying again", context_.targets[task.target].key, task.name, describe(failure));
+      enqueue({std::move(attempt.batch), attempt.retries_left - 1});
       return;
     }
-    give_up(task.dispatch, fmt::format("basis {}: {}", unit.name, describe(failure)));
+    give_up(attempt.batch, fmt::format("basis {}: {}", task.name, describe(failure)));
   }
 
   /// What every other launch would meet, too.
@@ -191,9 +190,9 @@ class Dispatcher {
             (failure.code == int(ExitCode::environment) || failure.code == int(ExitCode::io)));
   }
 
-  void divide(const Task& task, const LaunchFailure& failure) {
-    log::warn("{}; splitting {} bakes to find the offender", describe(failure), task.dispatch.units.size());
-    for (Dispatch& half : split(task.dispatch, context_.plan)) enqueue({std::move(half), task.retries_left});
+  void divide(const Attempt& attempt, const LaunchFailure& failure) {
+    log::warn("{}; splitting {} bakes to find the offender", describe(failure), attempt.batch.tasks.size());
+    for (Batch& half : split(attempt.batch, context_.plan)) enqueue({std::move(half), attempt.retries_left});
   }
 
   void note_failure(const LaunchFailure& failure) {
@@ -208,26 +207,26 @@ class Dispatcher {
   }
 
   /// Where the verdict on the scene has been spoken.
-  bool given_up(const Dispatch& dispatch) {
+  bool given_up(const Batch& batch) {
     std::unique_lock lock(mutex_);
     if (verdict_.empty()) return false;
     lock.unlock();  // it is never changed again
-    give_up(dispatch, verdict_);
+    give_up(batch, verdict_);
     return true;
   }
 
-  void give_up(const Dispatch& dispatch, const std::string& reason) {
-    for (const std::size_t unit : dispatch.units) desk_.give_up(context_.plan.units[unit].target, reason);
+  void give_up(const Batch& batch, const std::string& reason) {
+    for (const std::size_t task : batch.tasks) collector_.give_up(context_.plan.tasks[task].target, reason);
   }
 
   /// Behind what waits already: a launch that succeeds tells more than one that fails again.
-  void enqueue(Task task) {
+  void enqueue(Attempt attempt) {
     const std::lock_guard lock(mutex_);
-    queue_.push_back(std::move(task));
+    queue_.push_back(std::move(attempt));
     changed_.notify_all();
   }
 
-  void count(const Dispatch& dispatch, const Finished& finished) {
+  void count(const Batch& batch, const Finished& finished) {
     const std::lock_guard lock(mutex_);
     ++timings_.launches;
     timings_.launch_seconds += finished.wall_seconds;
@@ -239,23 +238,23 @@ class Dispatcher {
         timings_.save_seconds += lap.value("save_seconds", 0.0);
       }
     }
-    progress_.finish(dispatch.units.front(), work_of(dispatch, context_.plan));
+    progress_.finish(batch.tasks.front(), work_of(batch, context_.plan));
   }
 
-  void show(const Dispatch& dispatch, const ProgressEvent& event) {
-    const double done = event.total > 0 ? work_of(dispatch, context_.plan) * event.done / event.total : 0;
-    progress_.advance(dispatch.units.front(), done, in_words(event));
+  void show(const Batch& batch, const ProgressEvent& event) {
+    const double done = event.total > 0 ? work_of(batch, context_.plan) * event.done / event.total : 0;
+    progress_.advance(batch.tasks.front(), done, in_words(event));
   }
 
   Workspace& workspace_;
   const BakeContext& context_;
   BlendPath blend_;
-  DeliveryDesk& desk_;
+  BakeCollector& collector_;
   int jobs_;
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Task> queue_;
+  std::deque<Attempt> queue_;
   int running_ = 0;
   std::exception_ptr error_;
   BakeTimings timings_;
@@ -266,15 +265,15 @@ class Dispatcher {
 
 }  // namespace
 
-int choose_jobs(const BakeSettings& settings, std::size_t dispatches) {
+int choose_jobs(const BakeSettings& settings, std::size_t batches) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int wanted = settings.run.jobs > 0 ? settings.run.jobs : cores;
-  return std::clamp(static_cast<int>(dispatches), 1, wanted);
+  return std::clamp(static_cast<int>(batches), 1, wanted);
 }
 
-BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context, const BlendPath& blend,
-                           DeliveryDesk& desk) {
-  return Dispatcher(workspace, context, blend, desk).run();
+BakeTimings run_batches(Workspace& workspace, const BakeContext& context, const BlendPath& blend,
+                        BakeCollector& collector) {
+  return Dispatcher(workspace, context, blend, collector).run();
 }
 
 }  // namespace rnmbake

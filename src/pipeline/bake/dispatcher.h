@@ -1,12 +1,12 @@
-// pipeline/bake/dispatcher.h - runs the launches of a plan, several at a time, and finds the offender when one
-// fails.
+// pipeline/bake/dispatcher.h - runs the launches of a plan, several at a time, and finds the offender when
+// one fails.
 #pragma once
 
 #include "bake/request.h"
 #include "blender/blend_path.h"
+#include "blender/blender_session.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/bake_timings.h"
-#include "blender/blender_session.h"
 
 #include <vector>
 
@@ -18,10 +18,10 @@ namespace rnmbake {
 /// up.
 /// Throws Interrupted where the user stops, Error where going on makes no sense (a full disk, no such
 /// device).
-[[nodiscard]] BakeTimings run_dispatches(Workspace& workspace, const BakeContext& context,
-                                         const BlendPath& blend, DeliveryDesk& desk);
+[[nodiscard]] BakeTimings run_batches(Workspace& workspace, const BakeContext& context,
+                                      const BlendPath& blend, BakeCollector& collector);
 
 /// Blenders at a time: --jobs, else one for joined bakes and one for each core otherwise.
-[[nodiscard]] int choose_jobs(const BakeSettings& settings, std::size_t dispatches);
+[[nodiscard]] int choose_jobs(const BakeSettings& settings, std::size_t batches);
 
 }  // namespace rnmbake

@@ -21,7 +21,7 @@ std::int64_t available_memory() {
   return std::int64_t(4) << 30;  // unknown: what a small machine has
 }
 
-std::int64_t scene_triangles(const Survey& survey) {
+std::int64_t scene_triangles(const SceneSurvey& survey) {
   std::int64_t count = 0;
   for (const Mesh& mesh : survey.meshes) count += static_cast<std::int64_t>(mesh.triangles());
   return count;
@@ -34,15 +34,15 @@ std::int64_t memory_budget(const BakeSettings& settings) {
   return available_memory() * 7 / 10;
 }
 
-std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
-                              const Dispatch& dispatch, int jobs) {
+std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context, const Batch& batch,
+                              int jobs) {
   std::int64_t receiver_corners = 0;
-  for (const std::size_t unit : dispatch.units) {
-    for (const std::size_t tile : context.plan.units[unit].tiles) {
-      receiver_corners += static_cast<std::int64_t>(context.plan.tiles[tile].sheet.corners.size());
+  for (const std::size_t task : batch.tasks) {
+    for (const std::size_t rect : context.plan.tasks[task].rects) {
+      receiver_corners += static_cast<std::int64_t>(context.plan.rects[rect].pass.corners.size());
     }
   }
-  const std::int64_t samples = context.plan.units[dispatch.units.front()].cycles.samples;
+  const std::int64_t samples = context.plan.tasks[batch.tasks.front()].cycles.samples;
   const std::int64_t patience =
       std::max<std::int64_t>(work_per_call / std::max<std::int64_t>(samples, 1), 1 << 18);
   const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);

@@ -14,6 +14,6 @@ namespace rnmbake {
 /// Pixels of one atlas of a dispatch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
 /// and less where one bake call would take more than several minutes.
 [[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
-                                            const Dispatch& dispatch, int jobs);
+                                            const Batch& batch, int jobs);
 
 }  // namespace rnmbake

@@ -8,64 +8,63 @@
 
 namespace rnmbake {
 
-DeliveryDesk::DeliveryDesk(const BakeContext& context, const OutputSettings& output,
-                           std::vector<DeliveryNote> notes)
+BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
+                             std::vector<LightmapHeader> notes)
     : context_(context),
       output_(output),
       notes_(std::move(notes)),
-      shelves_(notes_.size()),
+      pending_(notes_.size()),
       deliveries_(notes_.size()) {
-  for (const Unit& unit : context.plan.units) ++shelves_[unit.target].missing;
+  for (const BakeTask& task : context.plan.tasks) ++pending_[task.target].missing;
 }
 
-void DeliveryDesk::take(const Dispatch& dispatch, const DispatchLayout& layout,
-                        std::vector<FloatImage> pictures) {
-  std::vector<std::pair<std::size_t, Shelf>> complete;
+void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) {
+  std::vector<std::pair<std::size_t, PendingTarget>> complete;
   {
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-      const std::size_t tile = layout.tiles[i];
-      const std::size_t target = context_.plan.tiles[tile].target;
-      if (!deliveries_[target]) shelves_[target].pictures[tile] = std::move(pictures[i]);
+      const std::size_t rect = layout.rects[i];
+      const std::size_t target = context_.plan.rects[rect].target;
+      if (!deliveries_[target]) pending_[target].pictures[rect] = std::move(pictures[i]);
     }
-    for (const std::size_t unit : dispatch.units) {
-      const std::size_t target = context_.plan.units[unit].target;
-      if (--shelves_[target].missing == 0 && !deliveries_[target])
-        complete.emplace_back(target, std::exchange(shelves_[target], {}));
+    for (const std::size_t task : batch.tasks) {
+      const std::size_t target = context_.plan.tasks[task].target;
+      if (--pending_[target].missing == 0 && !deliveries_[target])
+        complete.emplace_back(target, std::exchange(pending_[target], {}));
     }
   }
-  for (auto& [target, shelf] : complete) {
-    Delivery delivery = finish(target, std::move(shelf));
+  for (auto& [target, pending] : complete) {
+    Delivery delivery = finish(target, std::move(pending));
     const std::lock_guard lock(mutex_);
     deliveries_[target] = std::move(delivery);
   }
 }
 
-void DeliveryDesk::give_up(std::size_t target, const std::string& reason) {
+void BakeCollector::give_up(std::size_t target, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   if (deliveries_[target]) return;
   deliveries_[target] = NotDelivered{reason};
-  shelves_[target].pictures.clear();
+  pending_[target].pictures.clear();
   log::error("{}: {}", context_.targets[target].key, reason);
 }
 
-bool DeliveryDesk::is_settled(std::size_t target) const {
+bool BakeCollector::is_settled(std::size_t target) const {
   const std::lock_guard lock(mutex_);
   return deliveries_[target].has_value();
 }
 
-Delivery DeliveryDesk::finish(std::size_t target_index, Shelf&& shelf) const {
+Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending) const {
   const Target& target = context_.targets[target_index];
-  const DeliveryNote& note = notes_[target_index];
-  std::vector<const Tile*> tiles;
+  const LightmapHeader& note = notes_[target_index];
+  std::vector<const AtlasRect*> rects;
   std::vector<FloatImage> pictures;
-  for (auto& [tile, picture] : shelf.pictures) {
-    tiles.push_back(&context_.plan.tiles[tile]);
+  for (auto& [rect, picture] : pending.pictures) {
+    rects.push_back(&context_.plan.rects[rect]);
     pictures.push_back(std::move(picture));
   }
   try {
     const TargetBakes bakes =
-        assemble(target, tiles, pictures, context_.bases, note.surface.get(), output_.frames);
+        assemble(target, rects, pictures, context_.bases, note.surface.get(), output_.frames);
     return deliver_lightmap(bakes, note, output_);
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk

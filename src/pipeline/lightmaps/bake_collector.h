@@ -1,4 +1,5 @@
-// pipeline/lightmaps/bake_collector.h - collects what was baked and writes a target's lightmap as soon as all of it is there.
+// pipeline/lightmaps/bake_collector.h - collects what was baked and writes a target's lightmap as soon as all
+// of it is there.
 #pragma once
 
 #include "bake/plan.h"
@@ -14,12 +15,12 @@
 namespace rnmbake {
 
 /// Thread-safe. Writing errors (a full disk) are thrown: they concern every target that is left.
-class DeliveryDesk {
+class BakeCollector {
  public:
-  DeliveryDesk(const BakeContext& context, const OutputSettings& output, std::vector<DeliveryNote> notes);
+  BakeCollector(const BakeContext& context, const OutputSettings& output, std::vector<LightmapHeader> notes);
 
   /// Takes the tiles of a dispatch (in the layout's order); writes each target that became complete.
-  void take(const Dispatch& dispatch, const DispatchLayout& layout, std::vector<FloatImage> pictures);
+  void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures);
 
   /// Gives a target up; what comes for it later is thrown away.
   void give_up(std::size_t target, const std::string& reason);
@@ -28,17 +29,17 @@ class DeliveryDesk {
   [[nodiscard]] const std::vector<Delivery>& deliveries() const { return deliveries_; }
 
  private:
-  struct Shelf {
+  struct PendingTarget {
     std::size_t missing = 0;                     // units
     std::map<std::size_t, FloatImage> pictures;  // by tile
   };
-  [[nodiscard]] Delivery finish(std::size_t target, Shelf&& shelf) const;
+  [[nodiscard]] Delivery finish(std::size_t target, PendingTarget&& pending) const;
 
   BakeContext context_;
   OutputSettings output_;
-  std::vector<DeliveryNote> notes_;
+  std::vector<LightmapHeader> notes_;
   mutable std::mutex mutex_;
-  std::vector<Shelf> shelves_;
+  std::vector<PendingTarget> pending_;
   std::vector<Delivery> deliveries_;
 };
 

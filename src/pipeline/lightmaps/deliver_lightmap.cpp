@@ -17,7 +17,7 @@ Depth depth_of(const OutputSettings& output) {
   return output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
 }
 
-MergeOptions merge_options(const OutputSettings& output, const DeliveryNote& note) {
+MergeOptions merge_options(const OutputSettings& output, const LightmapHeader& note) {
   MergeOptions options;
   options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
   options.depth = depth_of(output);
@@ -90,7 +90,7 @@ void prepare_output(const OutputSettings& output) {
   AtomicFile(output.dir / "manifest.json").write(std::string(1 << 16, ' '));  // never committed
 }
 
-Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note, const OutputSettings& output,
+Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& note, const OutputSettings& output,
                            ExtraLayers extra) {
   const MergeOptions options = merge_options(output, note);
   MergedLightmap merged = merge(bakes, options);

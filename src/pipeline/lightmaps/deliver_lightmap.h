@@ -36,7 +36,7 @@ using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
 void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries);
 
 /// What is known of a target besides its geometry.
-struct DeliveryNote {
+struct LightmapHeader {
   std::string stem;           // of its file names
   LightmapMetadata metadata;  // for the headers
   int dilate = 4;
@@ -49,7 +49,7 @@ void prepare_output(const OutputSettings& output);
 
 /// Merges, writes the header and the files; warns of what had to be mended. `note.metadata` lacks only its
 /// bases. Throws Error(io), and Error(tasks_failed) where no texel holds a number.
-[[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const DeliveryNote& note,
+[[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& note,
                                          const OutputSettings& output, ExtraLayers extra = {});
 
 }  // namespace rnmbake

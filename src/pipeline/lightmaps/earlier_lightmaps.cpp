@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "lightmap/metadata.h"
 #include "pipeline/lightmaps/manifest_file.h"
-#include "pipeline/scene/scene_survey.h"
 #include "pipeline/lightmaps/target_facts.h"
+#include "pipeline/scene/scene_survey.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,7 +30,7 @@ struct Candidate {
   std::string key, object_key;
 };
 
-const SceneObject* find_object(const Survey& survey, const std::string& key) {
+const SceneObject* find_object(const SceneSurvey& survey, const std::string& key) {
   const auto found = std::ranges::find(survey.objects, key, &SceneObject::key);
   return found == survey.objects.end() ? nullptr : &*found;
 }
@@ -64,7 +64,8 @@ std::string names_in(const json& bases) {
 
 class Search {
  public:
-  Search(Workspace& workspace, const RunKind& run, const Survey& survey, const std::vector<Target>& targets)
+  Search(Workspace& workspace, const RunKind& run, const SceneSurvey& survey,
+         const std::vector<Target>& targets)
       : workspace_(workspace),
         run_(run),
         survey_(survey),
@@ -178,7 +179,7 @@ class Search {
     if (candidate.entry.at("object_in_scene") == "") return "";  // the user kept the UVs, or nobody did
     if (saved.empty())
       return fmt::format("its UVs were in {}, which is gone", brief(manifest_.at("scene_with_uvs")));
-    const Survey& there = saved_survey(saved);
+    const SceneSurvey& there = saved_survey(saved);
     const SceneObject* holder = find_object(there, candidate.object_key);
     const std::vector<Vec2>* uv = holder == nullptr ? nullptr : find_layer(there.mesh_of(*holder), layer);
     if (uv == nullptr || hash != uv_hash(*uv)) return fmt::format("its UVs are no longer in {}", saved);
@@ -187,7 +188,7 @@ class Search {
   }
 
   /// The scene that the earlier run saved, read once.
-  const Survey& saved_survey(const std::string& name) {
+  const SceneSurvey& saved_survey(const std::string& name) {
     if (!saved_) {
       log::info("reading the UVs of earlier lightmaps from {}", beside(name).string());
       saved_ = survey_file(workspace_, beside(name));
@@ -204,11 +205,11 @@ class Search {
 
   Workspace& workspace_;
   const RunKind& run_;
-  const Survey& survey_;
+  const SceneSurvey& survey_;
   fs::path file_;
   std::set<std::string> keys_, objects_;  // of this run
   json manifest_;
-  std::optional<Survey> saved_;
+  std::optional<SceneSurvey> saved_;
   std::map<std::string, Uvs> by_hash_;
 };
 
@@ -236,7 +237,7 @@ std::vector<SavedUvs> EarlierLightmaps::add_to(std::vector<SavedUvs> of_targets)
   return of_targets;
 }
 
-EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run, const Survey& survey,
+EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run, const SceneSurvey& survey,
                               const std::vector<Target>& targets) {
   return Search(workspace, run, survey, targets).find();
 }

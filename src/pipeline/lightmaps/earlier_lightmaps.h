@@ -1,11 +1,11 @@
-// pipeline/lightmaps/earlier_lightmaps.h - lightmaps that an earlier run left in the output folder, of objects that
-// this run leaves alone: they stay in the manifest, and their UVs in the saved scene.
+// pipeline/lightmaps/earlier_lightmaps.h - lightmaps that an earlier run left in the output folder, of
+// objects that this run leaves alone: they stay in the manifest, and their UVs in the saved scene.
 #pragma once
 
 #include "bake/targets.h"
+#include "blender/blender_session.h"
 #include "encoding/basis_set.h"
 #include "pipeline/scene/save_scene.h"
-#include "blender/blender_session.h"
 #include "scene/survey.h"
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace rnmbake {
 
 struct EarlierLightmap {
-  std::size_t object = 0;  // index into Survey::objects
+  std::size_t object = 0;  // index into SceneSurvey::objects
   nlohmann::json entry;    // of the manifest; "earlier" holds what was true of that whole run
   Uvs uv;                  // what was unwrapped then; null: the object's own, or in no file
 };
@@ -42,7 +42,7 @@ struct RunKind {
 /// Reads the output folder's manifest, and where something was unwrapped then the scene that was saved (one
 /// launch). Whatever no longer fits the scene is left out, with a warning. Throws Error(usage) where
 /// lightmaps of both runs cannot stand in one manifest: other bases, another scene.
-[[nodiscard]] EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run, const Survey& survey,
-                                            const std::vector<Target>& targets);
+[[nodiscard]] EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run,
+                                            const SceneSurvey& survey, const std::vector<Target>& targets);
 
 }  // namespace rnmbake

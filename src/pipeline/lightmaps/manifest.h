@@ -3,11 +3,11 @@
 #pragma once
 
 #include "bake/receiver.h"
-#include "pipeline/lightmaps/deliver_lightmap.h"
+#include "bake/targets.h"
 #include "pipeline/lightmaps/bake_timings.h"
+#include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
 #include "pipeline/lightmaps/manifest_file.h"
-#include "bake/targets.h"
 #include "scene/diffuse_scene.h"
 
 #include <cstdint>
@@ -43,11 +43,11 @@ struct ReferenceRecord {
 
 struct ManifestInput {
   const BakeSettings& settings;
-  const Survey& survey;
+  const SceneSurvey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
-  const std::vector<DeliveryNote>& notes;   // [targets]
-  const std::vector<Delivery>& deliveries;  // [targets]
+  const std::vector<LightmapHeader>& notes;  // [targets]
+  const std::vector<Delivery>& deliveries;   // [targets]
   const SavedScene& saved;
   const EarlierLightmaps& earlier;
   std::variant<BakeRecord, ReferenceRecord> record;

@@ -1,8 +1,8 @@
 #include "pipeline/lightmaps/manifest_file.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/json.h"
-#include "base/read_file.h"
 
 namespace rnmbake {
 

@@ -24,7 +24,8 @@ void LostDirections::warn() const {
       first_names(names_), counted(corners_, "corner"));
 }
 
-Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost, const Vec3d& origin) {
+Surface surface_of(const SceneSurvey& survey, const Target& target, LostDirections& lost,
+                   const Vec3d& origin) {
   const SceneObject& object = survey.objects[target.object];
   const Mesh& mesh = survey.mesh_of(object);
   const TangentFrames frames = tangent_frames(mesh, *target.tangent_uv, object.to_world);

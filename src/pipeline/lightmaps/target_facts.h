@@ -1,4 +1,5 @@
-// pipeline/lightmaps/target_facts.h - what a bake and a reference say of a target alike: its surface, its header.
+// pipeline/lightmaps/target_facts.h - what a bake and a reference say of a target alike: its surface, its
+// header.
 #pragma once
 
 #include "bake/targets.h"
@@ -26,7 +27,7 @@ class LostDirections {
 };
 
 /// World-space triangles, relative to `origin`, with the frames of the target's tangent UVs.
-[[nodiscard]] Surface surface_of(const Survey& survey, const Target& target, LostDirections& lost,
+[[nodiscard]] Surface surface_of(const SceneSurvey& survey, const Target& target, LostDirections& lost,
                                  const Vec3d& origin = Vec3d(0));
 
 [[nodiscard]] Normalize normalize_of(const OutputSettings& output);

@@ -6,9 +6,9 @@
 #include "base/log.h"
 #include "base/names.h"
 #include "base/progress.h"
+#include "blender/blender_session.h"
 #include "pipeline/lightmaps/manifest.h"
 #include "pipeline/lightmaps/target_facts.h"
-#include "blender/blender_session.h"
 #include "process/stop.h"
 #include "scene/lighting.h"
 
@@ -64,7 +64,7 @@ class ReferenceRun {
         list_(subject.list),
         record_{plan.flat_normal_map ? "flat-normal-map" : "true", names_of(plan.faults), plan.error,
                 std::vector<ReferenceRecord::Traced>(subject.list.targets.size()),
-                subject.scene.exchange().outside},
+                subject.scene.diffuse_scene().outside},
         progress_(title, progress_for(log::is_quiet(), log::is_jsonl())) {
     outcome_.deliveries.resize(list_.targets.size());
   }
@@ -93,7 +93,7 @@ class ReferenceRun {
   }
 
  private:
-  [[nodiscard]] const Survey& survey() const { return subject_.scene.exchange().survey; }
+  [[nodiscard]] const SceneSurvey& survey() const { return subject_.scene.diffuse_scene().survey; }
   [[nodiscard]] int samples(std::size_t target) const {
     return plan_.most_samples > 0 ? plan_.most_samples : list_.settings[target].samples;
   }
@@ -163,7 +163,7 @@ class ReferenceRun {
   }
 
   Delivery finish(std::size_t i, Gathered&& gathered) const {
-    const DeliveryNote& note = notes_[i];
+    const LightmapHeader& note = notes_[i];
     // Paths do not tell: where the recipe bakes black none are traced.
     if (std::ranges::none_of(gathered.coverage.data(), [](float share) { return share > 0; })) {
       const std::string reason = fmt::format(
@@ -198,7 +198,7 @@ class ReferenceRun {
   const BakeSettings& settings_;
   const ReferencePlan& plan_;
   const TargetList& list_;
-  std::vector<DeliveryNote> notes_;
+  std::vector<LightmapHeader> notes_;
   ReferenceRecord record_;
   ReferenceOutcome outcome_;
   double total_ = 0, done_ = 0;

@@ -1,12 +1,12 @@
 // pipeline/reference/reference_run.h - one reference: targets are traced and become lightmaps and a manifest.
 #pragma once
 
-#include "encoding/basis_set.h"
 #include "config/bake_settings.h"
+#include "encoding/basis_set.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
-#include "pipeline/scene/make_targets.h"
 #include "pipeline/reference/reference_plan.h"
+#include "pipeline/scene/make_targets.h"
 #include "trace/scene.h"
 
 #include <cstdint>

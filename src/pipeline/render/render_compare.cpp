@@ -42,7 +42,7 @@ struct Halves {
 
 class ViewRun {
  public:
-  ViewRun(Workspace& workspace, const ExportedScene& exported, const TraceScene& scene,
+  ViewRun(Workspace& workspace, const ExportResult& exported, const TraceScene& scene,
           const SceneLightmaps& lightmaps, const ViewCompareOptions& options)
       : workspace_(workspace),
         exported_(exported),
@@ -54,7 +54,7 @@ class ViewRun {
   ViewComparison run() {
     truth_ = truth();
     ViewComparison view;
-    view.name = camera_of(exported_.exchange).name;
+    view.name = camera_of(exported_.diffuse_scene).name;
     view.pictures.push_back({"truth", truth_.mean()});
     if (options_.with_cycles && exported_.blends)
       view.pictures.push_back(judged(options_.own_materials ? "Cycles, own materials" : "Cycles", cycles()));
@@ -113,7 +113,7 @@ class ViewRun {
   }
 
   Workspace& workspace_;
-  const ExportedScene& exported_;
+  const ExportResult& exported_;
   const TraceScene& scene_;
   const SceneLightmaps& lightmaps_;
   const ViewCompareOptions& options_;
@@ -134,7 +134,7 @@ RenderOptions render_options(const Camera& camera, int longest) {
   return options;
 }
 
-ViewComparison compare_view(Workspace& workspace, const ExportedScene& exported, const TraceScene& scene,
+ViewComparison compare_view(Workspace& workspace, const ExportResult& exported, const TraceScene& scene,
                             const SceneLightmaps& lightmaps, const ViewCompareOptions& options) {
   return ViewRun(workspace, exported, scene, lightmaps, options).run();
 }

@@ -1,10 +1,10 @@
 // pipeline/render/render_compare.h - one view of a scene in several ways, held against the traced truth.
 #pragma once
 
-#include "pipeline/scene/export_scene.h"
+#include "blender/blender_session.h"
 #include "pipeline/render/render_lightmaps.h"
 #include "pipeline/render/render_view.h"
-#include "blender/blender_session.h"
+#include "pipeline/scene/export_scene.h"
 #include "report/comparison.h"
 #include "trace/scene.h"
 
@@ -24,7 +24,7 @@ struct ViewCompareOptions {
 /// the lightmaps allow; why one is missing is logged. Truth and Cycles are rendered in two independent
 /// halves, so that errors are free of their noise; they are over the pixels that show surfaces. Throws as
 /// render_view() and render_cycles().
-[[nodiscard]] ViewComparison compare_view(Workspace& workspace, const ExportedScene& exported,
+[[nodiscard]] ViewComparison compare_view(Workspace& workspace, const ExportResult& exported,
                                           const TraceScene& scene, const SceneLightmaps& lightmaps,
                                           const ViewCompareOptions& options);
 

@@ -4,8 +4,8 @@
 #include "base/log.h"
 #include "config/settings.h"
 #include "image/layered_exr.h"
-#include "pipeline/scene/launch_answer.h"
 #include "pipeline/render/render_view.h"
+#include "pipeline/scene/launch_answer.h"
 
 #include <algorithm>
 #include <cctype>
@@ -49,10 +49,10 @@ FloatImage read_picture(const fs::path& file, const CyclesOptions& options) {
 
 }  // namespace
 
-std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportedScene& exported,
+std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportResult& exported,
                                       const CyclesOptions& options) {
   const BakeSettings& settings = workspace.settings();
-  const Camera& camera = camera_of(exported.exchange);
+  const Camera& camera = camera_of(exported.diffuse_scene);
   if (!exported.blends) {
     fail(ExitCode::usage, "{}: Cycles needs the Blender scene that this was exported from; give that .blend",
          settings.scene.file.string());

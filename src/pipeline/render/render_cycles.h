@@ -1,9 +1,9 @@
 // pipeline/render/render_cycles.h - the camera's view as Cycles renders it.
 #pragma once
 
+#include "blender/blender_session.h"
 #include "image/float_image.h"
 #include "pipeline/scene/export_scene.h"
-#include "blender/blender_session.h"
 
 #include <vector>
 
@@ -19,7 +19,7 @@ struct CyclesOptions {
 
 /// Linear RGB for each seed, in one launch: unfiltered, not denoised, the world behind; no depth of field, no
 /// motion blur. Throws Error(usage) where the scene is a .rnmscene, and as Workspace::run().
-[[nodiscard]] std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportedScene& exported,
+[[nodiscard]] std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportResult& exported,
                                                     const CyclesOptions& options);
 
 }  // namespace rnmbake

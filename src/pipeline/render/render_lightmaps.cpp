@@ -39,7 +39,7 @@ std::vector<std::uint32_t> part_of(const Mesh& mesh, const SceneObject& object, 
 }
 
 /// "floor" is an object, "floor/bricks" the part of one; names may hold slashes themselves.
-std::optional<Owner> owner_of(const Survey& survey, const std::string& key) {
+std::optional<Owner> owner_of(const SceneSurvey& survey, const std::string& key) {
   for (std::size_t i = 0; i < survey.objects.size(); ++i) {
     if (survey.objects[i].key != key) continue;
     Owner owner{i, {}};
@@ -74,7 +74,7 @@ double share_on_map(const Mesh& mesh, const Owner& owner, const std::vector<Vec2
   return all > 0 ? on / all : 0;
 }
 
-PlacedLightmap place(const Survey& survey, const LightmapPlace& found, const Owner& owner) {
+PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, const Owner& owner) {
   const LoadedLightmap loaded = load_lightmap(found);
   const LightmapMetadata& metadata = loaded.metadata;
   const SceneObject& object = survey.objects[owner.object];
@@ -101,8 +101,8 @@ PlacedLightmap place(const Survey& survey, const LightmapPlace& found, const Own
 
 }  // namespace
 
-SceneLightmaps::SceneLightmaps(const fs::path& path, const Exchange& scene) {
-  const Survey& survey = scene.survey;
+SceneLightmaps::SceneLightmaps(const fs::path& path, const DiffuseScene& scene) {
+  const SceneSurvey& survey = scene.survey;
   const LightmapFolder folder = open_lightmaps(path);
   std::vector<std::string> elsewhere;
   for (const LightmapPlace& found : folder.places) {

@@ -1,4 +1,5 @@
-// pipeline/render/render_lightmaps.h - lightmaps from disk, put back onto the surfaces that they were made for.
+// pipeline/render/render_lightmaps.h - lightmaps from disk, put back onto the surfaces that they were made
+// for.
 #pragma once
 
 #include "lightmap/decode.h"
@@ -17,7 +18,7 @@ namespace rnmbake {
 /// The lightmap of an object or of a part of one.
 struct PlacedLightmap {
   std::string key;
-  std::size_t object = 0;                 // index into Survey::objects
+  std::size_t object = 0;                 // index into SceneSurvey::objects
   const std::vector<Vec2>* uv = nullptr;  // [loops]
   Lightmap lightmap;
 };
@@ -28,7 +29,7 @@ class SceneLightmaps {
   /// UVs are those of the layer that a lightmap names. Throws as open_lightmaps() and load_lightmap(), and
   /// Error(invalid_input) where no object is on both sides, an object lacks the layer, or most of its faces
   /// lie where the lightmap covers nothing.
-  SceneLightmaps(const std::filesystem::path& path, const Exchange& scene);
+  SceneLightmaps(const std::filesystem::path& path, const DiffuseScene& scene);
 
   [[nodiscard]] const std::vector<PlacedLightmap>& placed() const { return placed_; }
 

@@ -14,15 +14,15 @@ std::array<float, 3> weights(const Vertex& vertex) {
 }
 
 /// The layer of the first normal map among an object's looks; nothing where it has none.
-std::optional<std::string> normal_map_layer(const Exchange& scene, std::size_t object) {
-  for (const int look : scene.object_looks[object]) {
-    const int map = scene.looks[static_cast<std::size_t>(look)].normal_map;
+std::optional<std::string> normal_map_layer(const DiffuseScene& scene, std::size_t object) {
+  for (const int material : scene.object_materials[object]) {
+    const int map = scene.materials[static_cast<std::size_t>(material)].normal_map;
     if (map >= 0) return scene.normal_maps[static_cast<std::size_t>(map)].uv_layer;
   }
   return std::nullopt;
 }
 
-FloatImage image_of(const Picture& picture) {
+FloatImage image_of(const Texture& picture) {
   FloatImage image(picture.width, picture.height, 3);
   for (std::size_t i = 0; i < picture.texels.size(); ++i)
     std::copy_n(&picture.texels[i].x, 3, &image.data()[3 * i]);
@@ -48,17 +48,17 @@ const std::vector<Vec2>* uv_layer(const Mesh& mesh, const std::string& name) {
 RenderSurfaces::RenderSurfaces(const TraceScene& scene,
                                const std::map<std::size_t, std::string>& tangent_layers)
     : scene_(scene) {
-  const Exchange& exchange = scene.exchange();
-  for (const NormalMap& map : exchange.normal_maps)
-    normal_pictures_.push_back(image_of(exchange.pictures[static_cast<std::size_t>(map.picture)]));
-  for (std::size_t i = 0; i < exchange.survey.objects.size(); ++i) {
-    const SceneObject& object = exchange.survey.objects[i];
+  const DiffuseScene& diffuse_scene = scene.diffuse_scene();
+  for (const NormalMap& map : diffuse_scene.normal_maps)
+    normal_pictures_.push_back(image_of(diffuse_scene.pictures[static_cast<std::size_t>(map.picture)]));
+  for (std::size_t i = 0; i < diffuse_scene.survey.objects.size(); ++i) {
+    const SceneObject& object = diffuse_scene.survey.objects[i];
     OnObject& on = objects_.emplace_back();
     on.mirrored = object.to_world.determinant() < 0;
-    std::optional<std::string> layer = normal_map_layer(exchange, i);
+    std::optional<std::string> layer = normal_map_layer(diffuse_scene, i);
     if (!layer) continue;  // the smooth normal is all that counts
     if (const auto other = tangent_layers.find(i); other != tangent_layers.end()) layer = other->second;
-    const Mesh& mesh = exchange.survey.mesh_of(object);
+    const Mesh& mesh = diffuse_scene.survey.mesh_of(object);
     const std::vector<Vec2>* uv = uv_layer(mesh, *layer);
     if (uv == nullptr) {
       fail(ExitCode::invalid_input,
@@ -76,7 +76,7 @@ std::size_t RenderSurfaces::corner(const Vertex& vertex, std::size_t k) const {
 }
 
 Vec2 RenderSurfaces::at(const Vertex& vertex, const std::vector<Vec2>& of_loops) const {
-  const Survey& survey = scene_.exchange().survey;
+  const SceneSurvey& survey = scene_.diffuse_scene().survey;
   const Mesh& mesh = survey.mesh_of(survey.objects[object_of(vertex)]);
   const auto weight = weights(vertex);
   Vec2 sum(0, 0);
@@ -85,8 +85,8 @@ Vec2 RenderSurfaces::at(const Vertex& vertex, const std::vector<Vec2>& of_loops)
 }
 
 Vec3 RenderSurfaces::mapped_normal(const Vertex& vertex) const {
-  const Exchange& scene = scene_.exchange();
-  const int number = scene.looks[vertex.look].normal_map;
+  const DiffuseScene& scene = scene_.diffuse_scene();
+  const int number = scene.materials[vertex.material].normal_map;
   if (number < 0) return {0, 0, 1};
   const NormalMap& map = scene.normal_maps[static_cast<std::size_t>(number)];
   const SceneObject& object = scene.survey.objects[object_of(vertex)];

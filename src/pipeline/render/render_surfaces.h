@@ -1,4 +1,5 @@
-// pipeline/render/render_surfaces.h - the scene as a shader sees it: UVs, tangent frames and normal maps at a place.
+// pipeline/render/render_surfaces.h - the scene as a shader sees it: UVs, tangent frames and normal maps at a
+// place.
 #pragma once
 
 #include "base/math.h"
@@ -16,7 +17,7 @@ namespace rnmbake {
 
 class RenderSurfaces {
  public:
-  /// `tangent_layers`: of objects (index into Survey::objects) whose frames follow another UV layer than
+  /// `tangent_layers`: of objects (index into SceneSurvey::objects) whose frames follow another UV layer than
   /// their normal map's. Throws Error(invalid_input) where an object lacks the layer.
   RenderSurfaces(const TraceScene& scene, const std::map<std::size_t, std::string>& tangent_layers);
 
@@ -47,7 +48,7 @@ class RenderSurfaces {
 
   const TraceScene& scene_;
   std::vector<OnObject> objects_;
-  std::vector<FloatImage> normal_pictures_;  // [Exchange::normal_maps]
+  std::vector<FloatImage> normal_pictures_;  // [DiffuseScene::normal_maps]
 };
 
 /// The UV layer of that name, "" for the active-render layer or the first; null where there is none.

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
-#include "pipeline/render/render_surfaces.h"
 #include "blender/blender_session.h"
+#include "pipeline/render/render_surfaces.h"
 #include "process/stop.h"
 #include "trace/path.h"
 
@@ -43,7 +43,7 @@ class Shader {
 
  private:
   [[nodiscard]] Vec3 albedo(const Vertex& vertex) const {
-    return scene_.looks().albedo(vertex.look, vertex.uv);
+    return scene_.materials().albedo(vertex.material, vertex.uv);
   }
 
   [[nodiscard]] Vec3 decoded(const Vertex& vertex, std::size_t number) const {
@@ -82,7 +82,7 @@ std::string name_of(const Lighting& lighting) {
   return lighting.kind == Lighting::Kind::truth ? "truth" : "none";
 }
 
-const Camera& camera_of(const Exchange& scene) {
+const Camera& camera_of(const DiffuseScene& scene) {
   if (scene.camera) return *scene.camera;
   fail(ExitCode::invalid_input,
        "{}: the scene has no camera that this can look through (none at all, or a panorama); add one in "
@@ -95,7 +95,7 @@ View render_view(const TraceScene& scene, const SceneLightmaps* lightmaps, const
   const Shader shader(scene, lightmaps, lighting, options.bounces);
   Progress progress("rendering", progress_for(log::is_quiet(), log::is_jsonl()));
   View view = trace_view(
-      scene, camera_of(scene.exchange()), options.view,
+      scene, camera_of(scene.diffuse_scene()), options.view,
       [&](const Vertex& vertex, Sampler& sampler) { return shader.reflected(vertex, sampler); },
       [&](double share) { progress.update(share, name_of(lighting)); },
       [] { return StopRequest::requested(); });

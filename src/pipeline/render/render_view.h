@@ -32,7 +32,7 @@ struct RenderOptions {
 };
 
 /// Throws Error(invalid_input) where the scene has none.
-[[nodiscard]] const Camera& camera_of(const Exchange& scene);
+[[nodiscard]] const Camera& camera_of(const DiffuseScene& scene);
 
 /// `lightmaps` may be null where nothing is decoded. Throws as SceneLightmaps::decoders(), and Interrupted.
 [[nodiscard]] View render_view(const TraceScene& scene, const SceneLightmaps* lightmaps,

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The launch that writes down what a tracer needs of a lambert scene.
-Exchange launch_export(Workspace& workspace, const BlendPath& lambert) {
+DiffuseScene launch_export(Workspace& workspace, const BlendPath& lambert) {
   const Launch launch = launch_on(workspace, "export_entry.py", "export", lambert);
   const nlohmann::json answer = workspace.run(launch);
   return read_exported(answered_file(answer, "survey", launch.folder));
@@ -32,7 +32,7 @@ void set_layer(Mesh& mesh, const std::string& name, const std::vector<Vec2>& uv)
 
 /// What was unwrapped becomes a layer of its mesh. Objects that share a mesh but not its scale have UVs of
 /// their own, and then a mesh of their own.
-void keep_unwrapped(Survey& survey, const std::vector<Target>& targets) {
+void keep_unwrapped(SceneSurvey& survey, const std::vector<Target>& targets) {
   std::map<std::size_t, const Target*> by_object;  // parts of an object share their UVs
   for (const Target& target : targets) {
     if (target.unwrapped) by_object.emplace(target.object, &target);
@@ -56,32 +56,32 @@ void keep_unwrapped(Survey& survey, const std::vector<Target>& targets) {
 }  // namespace
 
 bool is_exchange(const fs::path& file) {
-  return file.extension() == exchange_ending;
+  return file.extension() == diffuse_scene_ending;
 }
 
-ExportedScene export_scene(Workspace& workspace) {
+ExportResult export_scene(Workspace& workspace) {
   const fs::path file = workspace.settings().scene.file;
-  ExportedScene result;
+  ExportResult result;
   std::vector<std::string> logged;
   if (is_exchange(file)) {
-    result.exchange = read_exchange(file);
+    result.diffuse_scene = read_diffuse_scene(file);
   } else {
     const BlendPath own = import_scene(workspace, file);
     LambertScene lambert = make_lambert_scene(workspace, own);
     logged = std::move(lambert.warnings);
     result.blends = SceneBlends{lambert.blend, own};
     log::info("writing down the scene for the tracer");
-    result.exchange = launch_export(workspace, lambert.blend);
-    result.exchange.survey.scene_file = file.string();
+    result.diffuse_scene = launch_export(workspace, lambert.blend);
+    result.diffuse_scene.survey.scene_file = file.string();
   }
-  log_warnings(result.exchange.survey, logged);
-  if (result.exchange.survey.objects.empty()) {
+  log_warnings(result.diffuse_scene.survey, logged);
+  if (result.diffuse_scene.survey.objects.empty()) {
     fail(ExitCode::invalid_input,
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
          file.string());
   }
-  result.list = make_targets(workspace.config(), result.exchange.survey);
-  keep_unwrapped(result.exchange.survey, result.list.targets);
+  result.list = make_targets(workspace.config(), result.diffuse_scene.survey);
+  keep_unwrapped(result.diffuse_scene.survey, result.list.targets);
   return result;
 }
 

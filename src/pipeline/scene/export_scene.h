@@ -1,9 +1,10 @@
-// pipeline/scene/export_scene.h - the scene as the reference tracer sees it, and what of it becomes lightmaps.
+// pipeline/scene/export_scene.h - the scene as the reference tracer sees it, and what of it becomes
+// lightmaps.
 #pragma once
 
+#include "blender/blender_session.h"
 #include "pipeline/scene/make_targets.h"
 #include "pipeline/scene/scene_survey.h"
-#include "blender/blender_session.h"
 #include "scene/diffuse_scene.h"
 
 #include <filesystem>
@@ -11,8 +12,8 @@
 
 namespace rnmbake {
 
-struct ExportedScene {
-  Exchange exchange;
+struct ExportResult {
+  DiffuseScene diffuse_scene;
   TargetList list;                    // of exchange.survey's objects
   std::optional<SceneBlends> blends;  // none where the scene was a .rnmscene already
 };
@@ -20,8 +21,8 @@ struct ExportedScene {
 /// Launches Blender twice (albedo and emission, then everything else), and once more where something has to
 /// be unwrapped: meshes then have their UVs as layer "Lightmap". The materials are the lambert ones whatever
 /// the settings say. A scene file that is a .rnmscene already is read instead. Throws like survey_scene(),
-/// make_targets() and read_exchange().
-[[nodiscard]] ExportedScene export_scene(Workspace& workspace);
+/// make_targets() and read_diffuse_scene().
+[[nodiscard]] ExportResult export_scene(Workspace& workspace);
 
 /// Whether the scene of the settings is a .rnmscene file.
 [[nodiscard]] bool is_exchange(const std::filesystem::path& file);

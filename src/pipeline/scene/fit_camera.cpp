@@ -19,7 +19,7 @@ struct Box {
   Vec3d high = -low;
 };
 
-Box box_of(const Survey& survey, const std::vector<Target>& targets) {
+Box box_of(const SceneSurvey& survey, const std::vector<Target>& targets) {
   Box box;
   for (const Target& target : targets) {
     const SceneObject& object = survey.objects[target.object];
@@ -41,7 +41,7 @@ Box box_of(const Survey& survey, const std::vector<Target>& targets) {
 
 }  // namespace
 
-Camera fit_camera(const Survey& survey, const std::vector<Target>& targets, std::pair<int, int> size) {
+Camera fit_camera(const SceneSurvey& survey, const std::vector<Target>& targets, std::pair<int, int> size) {
   const double half_height = half_width * size.second / size.first;
   const Vec3d back = towards_camera.normalized();
   const Vec3d right = Vec3d(0, 0, 1).cross(back).normalized(), up = back.cross(right);
@@ -66,11 +66,11 @@ Camera fit_camera(const Survey& survey, const std::vector<Target>& targets, std:
   return camera;
 }
 
-void give_camera(ExportedScene& exported, bool always, const std::optional<std::pair<int, int>>& size) {
-  std::optional<Camera>& camera = exported.exchange.camera;
+void give_camera(ExportResult& exported, bool always, const std::optional<std::pair<int, int>>& size) {
+  std::optional<Camera>& camera = exported.diffuse_scene.camera;
   if (camera && !always) return;
   if (!camera) log::info("the scene has no plain camera; looking at all that is baked (--camera fit)");
-  camera = fit_camera(exported.exchange.survey, exported.list.targets, size.value_or(default_size));
+  camera = fit_camera(exported.diffuse_scene.survey, exported.list.targets, size.value_or(default_size));
 }
 
 }  // namespace rnmbake

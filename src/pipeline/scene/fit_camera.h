@@ -14,11 +14,11 @@ namespace rnmbake {
 /// From the right of the front and above (Blender's front is -y), so that the box round all targets, along
 /// the axes, just fits into a picture of that size in pixels. It stands outside of that box: of a closed room
 /// it shows the walls' outsides.
-[[nodiscard]] Camera fit_camera(const Survey& survey, const std::vector<Target>& targets,
+[[nodiscard]] Camera fit_camera(const SceneSurvey& survey, const std::vector<Target>& targets,
                                 std::pair<int, int> size);
 
 /// Gives the scene that camera where it has none, or `always`; says so. Without a size: 960 x 540.
-void give_camera(ExportedScene& exported, bool always = false,
+void give_camera(ExportResult& exported, bool always = false,
                  const std::optional<std::pair<int, int>>& size = std::nullopt);
 
 }  // namespace rnmbake

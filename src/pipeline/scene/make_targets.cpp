@@ -63,7 +63,7 @@ void warn_of_uv_problems(const std::vector<Target>& targets) {
 
 class TargetMaker {
  public:
-  TargetMaker(const ResolvedConfig& config, const Survey& survey) : config_(config), survey_(survey) {}
+  TargetMaker(const ResolvedConfig& config, const SceneSurvey& survey) : config_(config), survey_(survey) {}
 
   TargetList make() {
     check_patterns();
@@ -208,7 +208,7 @@ class TargetMaker {
   }
 
   const ResolvedConfig& config_;
-  const Survey& survey_;
+  const SceneSurvey& survey_;
   std::vector<Candidate> candidates_;
   std::map<std::pair<int, int>, Uvs> layers_;  // by mesh and layer
   std::map<std::tuple<int, const void*, std::string, int>, UvReport> reports_;
@@ -218,7 +218,7 @@ class TargetMaker {
 
 }  // namespace
 
-void check_light(const ResolvedConfig& config, const Survey& survey) {
+void check_light(const ResolvedConfig& config, const SceneSurvey& survey) {
   if (config.globals.scene.allow_dark || may_be_lit(survey)) return;
   fail(
       ExitCode::invalid_input,
@@ -227,7 +227,7 @@ void check_light(const ResolvedConfig& config, const Survey& survey) {
       survey.scene_file);
 }
 
-TargetList make_targets(const ResolvedConfig& config, const Survey& survey) {
+TargetList make_targets(const ResolvedConfig& config, const SceneSurvey& survey) {
   return TargetMaker(config, survey).make();
 }
 

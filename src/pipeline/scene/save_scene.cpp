@@ -23,7 +23,7 @@ bool wanted(OutputSettings::SaveScene mode, const std::vector<SavedUvs>& objects
 /// The request's entries; writes the arrays that they name, each once.
 class ObjectList {
  public:
-  ObjectList(const Survey& survey, fs::path folder) : survey_(survey), folder_(std::move(folder)) {}
+  ObjectList(const SceneSurvey& survey, fs::path folder) : survey_(survey), folder_(std::move(folder)) {}
 
   void add(const SavedUvs& one) {
     const SceneObject& object = survey_.objects[one.object];
@@ -51,13 +51,13 @@ class ObjectList {
     return entry->second;
   }
 
-  const Survey& survey_;
+  const SceneSurvey& survey_;
   fs::path folder_;
   std::set<int> faces_;
   std::map<const void*, std::string> arrays_;
 };
 
-SavedScene read_answer(const json& answer, const Survey& survey, const std::vector<SavedUvs>& objects) {
+SavedScene read_answer(const json& answer, const SceneSurvey& survey, const std::vector<SavedUvs>& objects) {
   SavedScene saved;
   for (const SavedUvs& one : objects) {
     const std::string& key = survey.objects[one.object].key;
@@ -84,7 +84,7 @@ std::vector<SavedUvs> uvs_of(const std::vector<Target>& targets) {
   return objects;
 }
 
-SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const BlendPath& own,
+SavedScene save_scene_with_uvs(Workspace& workspace, const SceneSurvey& survey, const BlendPath& own,
                                const std::vector<SavedUvs>& objects) {
   const BakeSettings& settings = workspace.settings();
   if (!wanted(settings.output.save_scene, objects)) return {};

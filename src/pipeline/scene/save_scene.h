@@ -21,12 +21,12 @@ struct SavedPlace {
 
 struct SavedScene {
   std::string file;                           // name in the output folder, "" if none was saved
-  std::map<std::size_t, SavedPlace> objects;  // by index into Survey::objects
+  std::map<std::size_t, SavedPlace> objects;  // by index into SceneSurvey::objects
 };
 
 /// An object's lightmap UVs as the saved scene is to hold them.
 struct SavedUvs {
-  std::size_t object = 0;  // index into Survey::objects
+  std::size_t object = 0;  // index into SceneSurvey::objects
   std::string layer;
   Uvs uv;  // what was unwrapped; null: the layer is the object's own
 };
@@ -37,7 +37,7 @@ struct SavedUvs {
 /// Writes DIR/<scene>.lightmap-uvs.blend, whole or not at all, if the settings want it (when_unwrapped: only
 /// if something was): the lightmap is every object's second UV layer, relative paths lead where they did.
 /// Throws as Workspace::run() and Error(io).
-[[nodiscard]] SavedScene save_scene_with_uvs(Workspace& workspace, const Survey& survey, const BlendPath& own,
-                                             const std::vector<SavedUvs>& objects);
+[[nodiscard]] SavedScene save_scene_with_uvs(Workspace& workspace, const SceneSurvey& survey,
+                                             const BlendPath& own, const std::vector<SavedUvs>& objects);
 
 }  // namespace rnmbake

@@ -1,11 +1,11 @@
 #include "pipeline/scene/scene_survey.h"
 
-#include "scene/survey_parse.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/object_notes.h"
 #include "blender/blend_header.h"
 #include "pipeline/scene/launch_answer.h"
+#include "scene/survey_parse.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ void warn_of_newer(const Workspace& workspace, const BlendPath& scene) {
   if (!newer.empty()) log::warn("{}", newer);
 }
 
-Survey survey_blend(Workspace& workspace, const BlendPath& blend) {
+SceneSurvey survey_blend(Workspace& workspace, const BlendPath& blend) {
   const Launch launch = launch_on(workspace, "survey_entry.py", "survey", blend);
   const nlohmann::json answer = workspace.run(launch);
   warn_of_newer(workspace, blend);
@@ -66,7 +66,7 @@ LambertScene make_lambert_scene(Workspace& workspace, const BlendPath& own) {
   return result;
 }
 
-void log_warnings(Survey& survey, const std::vector<std::string>& logged) {
+void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged) {
   std::vector<std::string> all = logged, fresh;
   for (const std::string& warning : survey.warnings) {
     if (std::ranges::find(all, warning) != all.end()) continue;
@@ -77,11 +77,11 @@ void log_warnings(Survey& survey, const std::vector<std::string>& logged) {
   survey.warnings = std::move(all);
 }
 
-Survey survey_file(Workspace& workspace, const fs::path& file) {
+SceneSurvey survey_file(Workspace& workspace, const fs::path& file) {
   return survey_blend(workspace, import_scene(workspace, file));
 }
 
-SurveyedScene survey_scene(Workspace& workspace) {
+SurveyResult survey_scene(Workspace& workspace) {
   const SceneSettings& scene = workspace.settings().scene;
   const BlendPath own = import_scene(workspace, scene.file);
   SceneBlends blends{own, own};
@@ -91,7 +91,7 @@ SurveyedScene survey_scene(Workspace& workspace) {
     blends.shown = lambert.blend;
     logged = std::move(lambert.warnings);
   }
-  SurveyedScene result{survey_blend(workspace, blends.shown), blends};
+  SurveyResult result{survey_blend(workspace, blends.shown), blends};
   result.survey.scene_file = scene.file.string();
   log_warnings(result.survey, logged);
   if (result.survey.objects.empty()) {

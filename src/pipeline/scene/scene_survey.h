@@ -17,8 +17,8 @@ struct SceneBlends {
   BlendPath own;    // with the user's own materials
 };
 
-struct SurveyedScene {
-  Survey survey;
+struct SurveyResult {
+  SceneSurvey survey;
   SceneBlends blends;
 };
 
@@ -27,11 +27,11 @@ struct SurveyedScene {
 [[nodiscard]] BlendPath import_scene(Workspace& workspace, const std::filesystem::path& file);
 
 /// What any one file holds (.blend, glTF, OBJ), with its own materials; nothing is logged.
-[[nodiscard]] Survey survey_file(Workspace& workspace, const std::filesystem::path& file);
+[[nodiscard]] SceneSurvey survey_file(Workspace& workspace, const std::filesystem::path& file);
 
 /// Imports, replaces the materials for --materials lambert, surveys. Logs what Blender warns of.
 /// Throws Error(invalid_input) where there is nothing with faces.
-[[nodiscard]] SurveyedScene survey_scene(Workspace& workspace);
+[[nodiscard]] SurveyResult survey_scene(Workspace& workspace);
 
 /// The scene with every surface showing its own baked albedo and emission through a plain diffuse material.
 struct LambertScene {
@@ -43,7 +43,7 @@ struct LambertScene {
 [[nodiscard]] LambertScene make_lambert_scene(Workspace& workspace, const BlendPath& own);
 
 /// Puts lines that were logged before in front of the survey's warnings, and logs those that are new.
-void log_warnings(Survey& survey, const std::vector<std::string>& logged = {});
+void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged = {});
 
 /// A launch that opens a scene, with the part of its request that says which one and in a folder of its own.
 [[nodiscard]] Launch launch_on(Workspace& workspace, const char* entry, const char* purpose,

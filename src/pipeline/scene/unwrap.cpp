@@ -98,7 +98,7 @@ Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings
 
 }  // namespace
 
-std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& requests) {
+std::vector<Uvs> unwrap(const SceneSurvey& survey, const std::vector<UnwrapRequest>& requests) {
   std::map<Key, std::size_t> known;
   std::vector<std::size_t> which;                // [requests] -> meshes
   std::vector<const UnwrapRequest*> first_user;  // [meshes]

@@ -10,13 +10,13 @@
 namespace rnmbake {
 
 struct UnwrapRequest {
-  std::size_t object = 0;  // index into Survey::objects
+  std::size_t object = 0;  // index into SceneSurvey::objects
   ObjectSettings settings;
 };
 
 /// UVs in the order of the requests, one for each loop. The margin between charts is that of the settings at
 /// the size that the lightmap will have; where it had to be narrowed, that is logged. Objects that share a
 /// mesh, a scale and settings share their UVs, so that instances stay instances. Throws Interrupted.
-[[nodiscard]] std::vector<Uvs> unwrap(const Survey& survey, const std::vector<UnwrapRequest>& requests);
+[[nodiscard]] std::vector<Uvs> unwrap(const SceneSurvey& survey, const std::vector<UnwrapRequest>& requests);
 
 }  // namespace rnmbake

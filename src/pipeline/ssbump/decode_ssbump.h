@@ -1,4 +1,5 @@
-// pipeline/ssbump/decode_ssbump.h - what a shader makes of a self-shadowed bump map and a lightmap, on the CPU.
+// pipeline/ssbump/decode_ssbump.h - what a shader makes of a self-shadowed bump map and a lightmap, on the
+// CPU.
 #pragma once
 
 #include "image/float_image.h"

@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "config/resolve.h"
 #include "lightmap/fill.h"
-#include "pipeline/scene/scene_survey.h"
 #include "pipeline/lightmaps/target_facts.h"
+#include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ bool fits(const std::vector<std::string>& patterns, const SceneObject& object) {
   });
 }
 
-void check_patterns(const std::vector<std::string>& patterns, const Survey& survey, const fs::path& file,
+void check_patterns(const std::vector<std::string>& patterns, const SceneSurvey& survey, const fs::path& file,
                     const char* flag) {
   std::vector<std::string> names;
   for (const SceneObject& object : survey.objects) {
@@ -58,7 +58,7 @@ void check_patterns(const std::vector<std::string>& patterns, const Survey& surv
        file.string());
 }
 
-Survey survey_meshes(Workspace& workspace, const fs::path& file) {
+SceneSurvey survey_meshes(Workspace& workspace, const fs::path& file) {
   if (!is_mesh_file(file.string()))
     fail(ExitCode::usage, "{}: not a mesh by its ending; give a .blend, .glb, .gltf or .obj file",
          file.string());
@@ -66,7 +66,7 @@ Survey survey_meshes(Workspace& workspace, const fs::path& file) {
   if (!fs::is_regular_file(file, ignored))
     fail(ExitCode::io, "{}: no such file; check the path", file.string());
   log::info("reading {}", file.string());
-  Survey survey = survey_file(workspace, file);
+  SceneSurvey survey = survey_file(workspace, file);
   for (const std::string& warning : survey.warnings) log::debug("{}", warning);
   if (!survey.objects.empty()) return survey;
   fail(ExitCode::invalid_input, "{}: holds no mesh that renders: is everything hidden from rendering?",
@@ -99,7 +99,7 @@ std::size_t layer_of(const Mesh& mesh, const SceneObject& object, const std::str
        object.key);
 }
 
-LowSurface low_surface(const Survey& survey, std::size_t index, const std::string& uv) {
+LowSurface low_surface(const SceneSurvey& survey, std::size_t index, const std::string& uv) {
   const SceneObject& object = survey.objects[index];
   const Mesh& mesh = survey.mesh_of(object);
   const UvLayer& layer = mesh.uv_layers[layer_of(mesh, object, uv)];
@@ -116,7 +116,7 @@ LowSurface low_surface(const Survey& survey, std::size_t index, const std::strin
 }
 
 /// Appends an object's triangles. A mirrored object keeps its front: two corners change places.
-void add_high(const Survey& survey, const SceneObject& object, HighMesh& high) {
+void add_high(const SceneSurvey& survey, const SceneObject& object, HighMesh& high) {
   const Mesh& mesh = survey.mesh_of(object);
   const Mat44 for_normals = object.to_world.inverse().transposed();
   const bool mirrored = object.to_world.determinant() < 0;
@@ -150,7 +150,7 @@ class MeshReader {
   }
 
   Meshes read() {
-    const Survey survey = survey_meshes(workspace_, options_.high);
+    const SceneSurvey survey = survey_meshes(workspace_, options_.high);
     check_patterns(names_, survey, options_.high, "--onto");
     check_patterns(options_.high_objects, survey, options_.high, "--high-objects");
     for (std::size_t i = 0; i < survey.objects.size(); ++i) {
@@ -168,7 +168,7 @@ class MeshReader {
 
  private:
   void add_low_file(const fs::path& file) {
-    const Survey survey = survey_meshes(workspace_, file);
+    const SceneSurvey survey = survey_meshes(workspace_, file);
     check_patterns(options_.low_objects, survey, file, "--low-objects");
     for (std::size_t i = 0; i < survey.objects.size(); ++i) {
       const SceneObject& object = survey.objects[i];

@@ -1,8 +1,9 @@
-// pipeline/ssbump/ssbump_mesh.h - self-shadowed bump maps of detailed meshes: files in, maps of a low mesh out.
+// pipeline/ssbump/ssbump_mesh.h - self-shadowed bump maps of detailed meshes: files in, maps of a low mesh
+// out.
 #pragma once
 
-#include "image/float_image.h"
 #include "blender/blender_session.h"
+#include "image/float_image.h"
 #include "ssbump/mesh/mesh_occlusion.h"
 
 #include <filesystem>

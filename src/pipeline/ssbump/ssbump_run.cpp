@@ -3,9 +3,9 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "ssbump/generate/albedo.h"
 #include "blender/blender_session.h"
 #include "process/stop.h"
+#include "ssbump/generate/albedo.h"
 #include "ssbump/heights/bilateral.h"
 #include "ssbump/map/normals.h"
 

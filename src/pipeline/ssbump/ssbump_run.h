@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/progress.h"
-#include "ssbump/map/files.h"
 #include "ssbump/generate/generate.h"
 #include "ssbump/heights/read_heights.h"
+#include "ssbump/map/files.h"
 
 #include <filesystem>
 #include <functional>

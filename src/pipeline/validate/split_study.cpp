@@ -18,14 +18,14 @@ namespace {
 constexpr std::size_t most_targets = 200;
 
 /// The first target of every object, made whole again.
-TargetList whole_objects(const ExportedScene& exported) {
+TargetList whole_objects(const ExportResult& exported) {
   TargetList list;
   list.skipped = exported.list.skipped;
   std::set<std::size_t> seen;
   for (std::size_t i = 0; i < exported.list.targets.size(); ++i) {
     Target target = exported.list.targets[i];
     if (!seen.insert(target.object).second) continue;
-    const Survey& survey = exported.exchange.survey;
+    const SceneSurvey& survey = exported.diffuse_scene.survey;
     const SceneObject& object = survey.objects[target.object];
     target.key = object.key;
     target.part = split_mesh(survey.mesh_of(object), object.slots, ObjectSettings::Split::none).front();
@@ -57,7 +57,7 @@ std::size_t target_count(const Splitting& splitting) {
 
 /// Every target of `whole` in the parts that `cut` makes of it.
 template <typename Cut>
-TargetList cut_objects(const Survey& survey, const TargetList& whole, Cut cut) {
+TargetList cut_objects(const SceneSurvey& survey, const TargetList& whole, Cut cut) {
   TargetList list;
   list.skipped = whole.skipped;
   for (std::size_t i = 0; i < whole.targets.size(); ++i) {
@@ -94,7 +94,7 @@ struct Box {
   }
 };
 
-Box bounds_of(const Survey& survey, const TargetList& whole) {
+Box bounds_of(const SceneSurvey& survey, const TargetList& whole) {
   Box box;
   for (const Target& target : whole.targets) {
     const SceneObject& object = survey.objects[target.object];
@@ -104,7 +104,7 @@ Box bounds_of(const Survey& survey, const TargetList& whole) {
 }
 
 /// A polygon belongs to the cell of its first triangle's middle: parts are made of whole polygons.
-std::vector<Part> cut_by_grid(const Survey& survey, const Target& target, const Box& box, int cells) {
+std::vector<Part> cut_by_grid(const SceneSurvey& survey, const Target& target, const Box& box, int cells) {
   const SceneObject& object = survey.objects[target.object];
   const Mesh& mesh = survey.mesh_of(object);
   std::map<std::uint32_t, std::array<int, 3>> cell_of;  // by polygon
@@ -140,8 +140,8 @@ Statistic over_bases(const std::vector<BasisMetrics>& bases) {
 
 }  // namespace
 
-std::vector<Splitting> splittings(const ExportedScene& exported) {
-  const Survey& survey = exported.exchange.survey;
+std::vector<Splitting> splittings(const ExportResult& exported) {
+  const SceneSurvey& survey = exported.diffuse_scene.survey;
   const TargetList whole = whole_objects(exported);
   const auto by = [&](ObjectSettings::Split mode) {
     return cut_objects(survey, whole, [&](const Target& target) {

@@ -1,5 +1,5 @@
-// pipeline/validate/split_study.h - what the published recipe gains from being baked in smaller pieces, and what it
-// costs.
+// pipeline/validate/split_study.h - what the published recipe gains from being baked in smaller pieces, and
+// what it costs.
 #pragma once
 
 #include "pipeline/validate/variants.h"
@@ -19,7 +19,7 @@ struct Splitting {
 /// Objects as they are, by material, by loose part, and by the cells of a grid over the scene: by growing
 /// number of targets, each number once, without those that are too many to bake one by one. All pieces of an
 /// object keep its lightmap's size and UVs, so that the texels compared are the same.
-[[nodiscard]] std::vector<Splitting> splittings(const ExportedScene& exported);
+[[nodiscard]] std::vector<Splitting> splittings(const ExportResult& exported);
 
 /// Bakes the targets of one splitting by flat-normal-map and traces their truth, below the output folder. The
 /// error is over all bases. `seed`: added to each target's own.

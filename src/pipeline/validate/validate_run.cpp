@@ -4,13 +4,13 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/names.h"
+#include "base/steps.h"
 #include "base/text.h"
 #include "pipeline/compare/compare.h"
-#include "pipeline/validate/decompose.h"
-#include "pipeline/scene/fit_camera.h"
 #include "pipeline/render/render_compare.h"
+#include "pipeline/scene/fit_camera.h"
+#include "pipeline/validate/decompose.h"
 #include "pipeline/validate/split_study.h"
-#include "base/steps.h"
 #include "pipeline/validate/validate_finding.h"
 #include "pipeline/validate/validate_scope.h"
 #include "pipeline/validate/variants.h"
@@ -41,10 +41,10 @@ ReferencePlan without_limit(ReferencePlan plan) {
 }
 
 /// The targets whose objects fit a pattern; the word "none" alone chooses none.
-TargetList chosen(const ExportedScene& exported, const std::vector<std::string>& patterns) {
+TargetList chosen(const ExportResult& exported, const std::vector<std::string>& patterns) {
   TargetList list;
   if (patterns == std::vector<std::string>{"none"}) return list;
-  const auto& objects = exported.exchange.survey.objects;
+  const auto& objects = exported.diffuse_scene.survey.objects;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < exported.list.targets.size(); ++i) {
     const SceneObject& object = objects[exported.list.targets[i].object];
@@ -71,16 +71,17 @@ class ValidateRun {
         options_(options),
         dir_(workspace.settings().output.dir),
         exported_(with_camera(export_scene(workspace))),
-        plan_(without_limit(plan_reference(workspace.config(), exported_.exchange.survey.blender_version))),
-        scene_(exported_.exchange, plan_.blender_version),
+        plan_(without_limit(
+            plan_reference(workspace.config(), exported_.diffuse_scene.survey.blender_version))),
+        scene_(exported_.diffuse_scene, plan_.blender_version),
         base_{workspace, exported_, scene_, bases},
         decomposed_(chosen(exported_, options.decompose)),
         own_(has_own_materials()),
         faults_(faults_of(blender_version_of(plan_.blender_version, "the scene"))),
         limit_(workspace.settings().bake.bounces),
-        limit_matters_(bounces_matter(exported_.exchange, limit_)),
-        not_followed_(not_followed(exported_.exchange)) {
-    check_light(workspace.config(), exported_.exchange.survey);
+        limit_matters_(bounces_matter(exported_.diffuse_scene, limit_)),
+        not_followed_(not_followed(exported_.diffuse_scene)) {
+    check_light(workspace.config(), exported_.diffuse_scene.survey);
     if (options.split_study) study_ = splittings(exported_);
   }
 
@@ -117,16 +118,17 @@ class ValidateRun {
   [[nodiscard]] bool decomposes() const { return !decomposed_.targets.empty(); }
   [[nodiscard]] bool shows_view() const { return options_.view > 0; }
 
-  [[nodiscard]] ExportedScene with_camera(ExportedScene exported) const {
+  [[nodiscard]] ExportResult with_camera(ExportResult exported) const {
     if (shows_view()) give_camera(exported);
     return exported;
   }
 
   /// The receiver's lightmaps, put back into the scene.
   [[nodiscard]] ViewComparison view() const {
-    const SceneLightmaps lightmaps(halves(Recipe::receiver, Materials::lambert).first, exported_.exchange);
+    const SceneLightmaps lightmaps(halves(Recipe::receiver, Materials::lambert).first,
+                                   exported_.diffuse_scene);
     ViewCompareOptions options;
-    options.render = render_options(*exported_.exchange.camera, options_.view);
+    options.render = render_options(*exported_.diffuse_scene.camera, options_.view);
     options.render.view.samples = workspace_.settings().object.samples;
     options.render.view.seed = static_cast<std::uint64_t>(workspace_.settings().object.seed);
     options.render.view.threads = plan_.threads;
@@ -136,7 +138,7 @@ class ValidateRun {
 
   /// Objects whose materials the lambert scene only stands in for.
   [[nodiscard]] bool has_own_materials() const {
-    return std::ranges::any_of(exported_.exchange.outside, [](const OutsideModel& outside) {
+    return std::ranges::any_of(exported_.diffuse_scene.outside, [](const OutsideModel& outside) {
       return outside.owner.starts_with("object ") && outside.what != outside.untraced;
     });
   }
@@ -296,13 +298,13 @@ class ValidateRun {
           "The decomposition is of flat-normal-map minus the reference. Causes are added to the tracer one "
           "after "
           "the other; 'residual' is Cycles' bake minus the tracer with all of them.");
-    for (std::string& note : scope_notes(exported_.exchange)) report.notes.push_back(std::move(note));
+    for (std::string& note : scope_notes(exported_.diffuse_scene)) report.notes.push_back(std::move(note));
   }
 
   Workspace& workspace_;
   ValidateOptions options_;
   std::filesystem::path dir_;
-  ExportedScene exported_;
+  ExportResult exported_;
   ReferencePlan plan_;
   TraceScene scene_;
   VariantBase base_;

@@ -1,8 +1,8 @@
 // pipeline/validate/validate_run.h - bakes, traces and compares one scene: how wrong the bake is, and why.
 #pragma once
 
-#include "encoding/basis_set.h"
 #include "blender/blender_session.h"
+#include "encoding/basis_set.h"
 #include "report/comparison.h"
 
 #include <optional>

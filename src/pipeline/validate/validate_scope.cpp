@@ -17,9 +17,9 @@ float brightest(const Vec3& color) {
   return std::max({color.x, color.y, color.z});
 }
 
-float brightest_albedo(const Exchange& scene) {
+float brightest_albedo(const DiffuseScene& scene) {
   float most = 0;
-  for (const Look& look : scene.looks) {
+  for (const SurfaceMaterial& look : scene.materials) {
     most = std::max(most, brightest(look.albedo));
     if (look.albedo_picture < 0) continue;
     for (const Vec3& texel : scene.pictures[static_cast<std::size_t>(look.albedo_picture)].texels)
@@ -30,7 +30,7 @@ float brightest_albedo(const Exchange& scene) {
 
 }  // namespace
 
-std::vector<std::string> not_followed(const Exchange& scene) {
+std::vector<std::string> not_followed(const DiffuseScene& scene) {
   std::vector<std::string> lines;
   for (const OutsideModel& outside : scene.outside) {
     if (!outside.untraced.empty())
@@ -39,7 +39,7 @@ std::vector<std::string> not_followed(const Exchange& scene) {
   return lines;
 }
 
-std::vector<std::string> scope_notes(const Exchange& scene) {
+std::vector<std::string> scope_notes(const DiffuseScene& scene) {
   std::vector<std::string> notes;
   for (const std::string& line : not_followed(scene))
     notes.push_back("Not followed by the reference: " + line +
@@ -47,7 +47,7 @@ std::vector<std::string> scope_notes(const Exchange& scene) {
   return notes;
 }
 
-bool bounces_matter(const Exchange& scene, int bounces) {
+bool bounces_matter(const DiffuseScene& scene, int bounces) {
   return std::pow(brightest_albedo(scene), bounces + 1) > worth_tracing;
 }
 

@@ -1,4 +1,5 @@
-// pipeline/validate/validate_scope.h - where bake and reference differ by what they were told or can do, not by error.
+// pipeline/validate/validate_scope.h - where bake and reference differ by what they were told or can do, not
+// by error.
 #pragma once
 
 #include "report/comparison.h"
@@ -12,14 +13,14 @@ namespace rnmbake {
 
 /// "light 'Lamp': node tree": light that Cycles' bakes of the lambert scene have and the tracer has not. It
 /// may reach any object.
-[[nodiscard]] std::vector<std::string> not_followed(const Exchange& scene);
+[[nodiscard]] std::vector<std::string> not_followed(const DiffuseScene& scene);
 
 /// The same as lines for a report.
-[[nodiscard]] std::vector<std::string> scope_notes(const Exchange& scene);
+[[nodiscard]] std::vector<std::string> scope_notes(const DiffuseScene& scene);
 
 /// Whether more than a ten-thousandth of the light of a closed room of the scene's brightest surface is left
 /// after so many bounces.
-[[nodiscard]] bool bounces_matter(const Exchange& scene, int bounces);
+[[nodiscard]] bool bounces_matter(const DiffuseScene& scene, int bounces);
 
 /// From folders with the truth traced with and without a limit of bounces.
 [[nodiscard]] BounceLimit bounce_limit(int bounces, const std::filesystem::path& with,

@@ -51,7 +51,7 @@ BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const Bak
   const bool lambert = variant.materials == SceneSettings::Materials::lambert;
   SceneBlends blends = base.exported.blends.value();
   if (!lambert) blends.shown = blends.own;
-  return run_bake(workspace, {base.exported.exchange.survey, halved, base.bases, blends});
+  return run_bake(workspace, {base.exported.diffuse_scene.survey, halved, base.bases, blends});
 }
 
 ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, const TraceVariant& variant) {

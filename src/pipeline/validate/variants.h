@@ -2,8 +2,8 @@
 #pragma once
 
 #include "pipeline/bake/bake_run.h"
-#include "pipeline/scene/export_scene.h"
 #include "pipeline/reference/reference_run.h"
+#include "pipeline/scene/export_scene.h"
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ namespace rnmbake {
 /// What all variants of one scene share.
 struct VariantBase {
   const Workspace& workspace;
-  const ExportedScene& exported;
+  const ExportResult& exported;
   const TraceScene& scene;
   const std::vector<BasisDirection>& bases;
 };

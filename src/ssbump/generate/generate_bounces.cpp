@@ -1,8 +1,8 @@
 #include "ssbump/generate/generate_bounces.h"
 
 #include "ssbump/generate/hemisphere_rays.h"
-#include "ssbump/map/lobes.h"
 #include "ssbump/heights/trace_heights.h"
+#include "ssbump/map/lobes.h"
 
 #include <array>
 #include <cmath>

@@ -2,6 +2,10 @@
 #pragma once
 
 #include "ssbump/generate_options.h"
+#include "ssbump/heights/height_field.h"
+#include "ssbump/map/weights.h"
+
+#include <functional>
 
 namespace rnmbake {
 

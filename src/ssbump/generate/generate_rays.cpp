@@ -1,8 +1,8 @@
 #include "ssbump/generate/generate_rays.h"
 
 #include "encoding/rnm.h"
-#include "ssbump/heights/height_shadows.h"
 #include "ssbump/generate/hemisphere_rays.h"
+#include "ssbump/heights/height_shadows.h"
 
 #include <array>
 #include <atomic>

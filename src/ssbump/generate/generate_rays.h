@@ -1,7 +1,12 @@
-// ssbump/generate/generate_rays.h - weights by rays: the truth that the horizon's are measured against, and cones.
+// ssbump/generate/generate_rays.h - weights by rays: the truth that the horizon's are measured against, and
+// cones.
 #pragma once
 
 #include "ssbump/generate_options.h"
+#include "ssbump/heights/height_field.h"
+#include "ssbump/map/weights.h"
+
+#include <functional>
 
 namespace rnmbake {
 

@@ -1,4 +1,5 @@
-// ssbump/generate/hemisphere_rays.h - rays over a hemisphere with what each counts for in every channel of a texel.
+// ssbump/generate/hemisphere_rays.h - rays over a hemisphere with what each counts for in every channel of a
+// texel.
 #pragma once
 
 #include "base/math.h"

@@ -9,13 +9,13 @@ namespace rnmbake {
 
 /// What lies beyond a border, for each axis: the map again, the map mirrored (with the border's texels
 /// twice), or nothing new: the border's heights go on.
-enum class Beyond : std::uint8_t { wrap, mirror, none };
+enum class WrapMode : std::uint8_t { wrap, mirror, none };
 
 /// The row or column, of `size`, whose heights lie at `i`, which may be any distance beyond a border.
-[[nodiscard]] constexpr int texel_beyond(int i, int size, Beyond beyond) {
+[[nodiscard]] constexpr int texel_beyond(int i, int size, WrapMode beyond) {
   if (i >= 0 && i < size) return i;
-  if (beyond == Beyond::none) return i < 0 ? 0 : size - 1;
-  const int period = beyond == Beyond::mirror ? 2 * size : size;
+  if (beyond == WrapMode::none) return i < 0 ? 0 : size - 1;
+  const int period = beyond == WrapMode::mirror ? 2 * size : size;
   // A map has texels. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
   const int rest = i % period, folded = rest < 0 ? rest + period : rest;
   return folded < size ? folded : period - 1 - folded;
@@ -26,7 +26,7 @@ enum class Beyond : std::uint8_t { wrap, mirror, none };
 /// (towards row 0), +z out of it.
 struct HeightField {
   FloatImage heights;
-  Beyond x = Beyond::wrap, y = Beyond::wrap;
+  WrapMode x = WrapMode::wrap, y = WrapMode::wrap;
 
   [[nodiscard]] int width() const { return heights.width(); }
   [[nodiscard]] int height() const { return heights.height(); }

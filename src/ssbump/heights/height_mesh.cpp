@@ -26,18 +26,19 @@ std::vector<float> skirt_of(double reach) {
 }
 
 /// Of whole texels; the ones on both ends belong to what lies beyond.
-std::vector<Line> texel_lines(int count, Beyond beyond, double reach) {
+std::vector<Line> texel_lines(int count, WrapMode beyond, double reach) {
   std::vector<Line> lines;
   const auto last = static_cast<float>(count - 1);
-  const std::vector<float> skirt = beyond == Beyond::none ? skirt_of(reach) : std::vector<float>{};
+  const std::vector<float> skirt = beyond == WrapMode::none ? skirt_of(reach) : std::vector<float>{};
   lines.reserve(2 * skirt.size() + static_cast<std::size_t>(count) + 2);
   for (const float place : skirt) lines.push_back({-place, 0});
   std::ranges::reverse(lines);
-  if (beyond == Beyond::mirror) lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned
+  if (beyond == WrapMode::mirror)
+    lines.push_back({-1, 0});  // on both sides: a turned copy has its own turned
   for (int i = 0; i < count; ++i) lines.push_back({static_cast<float>(i), i});
   for (const float place : skirt) lines.push_back({last + place, count - 1});
-  if (beyond == Beyond::wrap) lines.push_back({last + 1, 0});
-  if (beyond == Beyond::mirror) lines.push_back({last + 1, count - 1});
+  if (beyond == WrapMode::wrap) lines.push_back({last + 1, 0});
+  if (beyond == WrapMode::mirror) lines.push_back({last + 1, count - 1});
   return lines;
 }
 
@@ -49,7 +50,7 @@ std::vector<float> cells_of(PatchCuts cuts) {
   return {0, narrow, 0.25F, 0.75F, 1 - narrow};
 }
 
-std::vector<Line> lines_of(int count, Beyond beyond, double reach, PatchCuts cuts) {
+std::vector<Line> lines_of(int count, WrapMode beyond, double reach, PatchCuts cuts) {
   const std::vector<Line> whole = texel_lines(count, beyond, reach);
   std::vector<Line> lines;
   for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
@@ -76,13 +77,13 @@ struct Placed {
 };
 
 /// The field itself, then its neighbours, the nearer ones first.
-std::vector<Placed> placed(int count, Beyond beyond, double reach) {
+std::vector<Placed> placed(int count, WrapMode beyond, double reach) {
   std::vector<Placed> all{{}};
-  if (beyond == Beyond::none) return all;
+  if (beyond == WrapMode::none) return all;
   const auto periods = static_cast<int>(std::ceil(reach / count));
   const auto add = [&](int period) {
     const auto start = static_cast<float>(period * count);
-    const bool turned = beyond == Beyond::mirror && period % 2 != 0;
+    const bool turned = beyond == WrapMode::mirror && period % 2 != 0;
     all.push_back(turned ? Placed{start + static_cast<float>(count - 1), -1} : Placed{start, 1});
   };
   for (int period = 1; period <= periods; ++period) {

@@ -29,9 +29,9 @@ class Axis {
     return std::clamp(start_ - cell_ + speed_ * distance, 0.0, 1.0);
   }
   /// Whether from this cell to the walk's end heights do not change by what this axis does.
-  [[nodiscard]] bool is_over(int size, Beyond beyond) const {
+  [[nodiscard]] bool is_over(int size, WrapMode beyond) const {
     if (speed_ == 0) return true;
-    return beyond == Beyond::none && (speed_ > 0 ? cell_ >= size - 1 : cell_ < 0);
+    return beyond == WrapMode::none && (speed_ > 0 ? cell_ >= size - 1 : cell_ < 0);
   }
   void step() {
     cell_ += speed_ < 0 ? -1 : 1;

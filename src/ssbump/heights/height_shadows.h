@@ -1,4 +1,5 @@
-// ssbump/heights/height_shadows.h - the exact shadow that a height field casts on itself: the truth for estimates.
+// ssbump/heights/height_shadows.h - the exact shadow that a height field casts on itself: the truth for
+// estimates.
 #pragma once
 
 #include "base/math.h"

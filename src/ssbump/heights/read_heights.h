@@ -16,7 +16,7 @@ struct HeightOptions {
   /// Texels that a value of 1 is high: the full range of integer formats, and what floats are multiplied
   /// with. None given: sqrt(width height) / 32 for integers, 1 for floats.
   std::optional<double> texels;
-  Beyond x = Beyond::wrap, y = Beyond::wrap;
+  WrapMode x = WrapMode::wrap, y = WrapMode::wrap;
 };
 
 struct ReadHeights {

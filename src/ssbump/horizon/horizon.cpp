@@ -33,10 +33,10 @@ constexpr std::array<AzimuthOptions, 5> doubling_sets{{
 }};
 constexpr double large_over_rmse = 10, most_large = 1e-4;  // errors that are large, and how many may be
 
-GridAxis axis_of(int size, Beyond beyond, int least) {
+GridAxis axis_of(int size, WrapMode beyond, int least) {
   GridAxis axis{size, size, beyond};
-  if (beyond == Beyond::mirror) axis.period = 2 * size;
-  if (beyond != Beyond::none) axis.period *= (least + axis.period - 1) / axis.period;
+  if (beyond == WrapMode::mirror) axis.period = 2 * size;
+  if (beyond != WrapMode::none) axis.period *= (least + axis.period - 1) / axis.period;
   return axis;
 }
 
@@ -115,7 +115,7 @@ class HorizonRows {
   }
 
  private:
-  [[nodiscard]] HorizonGrid grid_of(int steps, Beyond over, int lines, Beyond aside) const {
+  [[nodiscard]] HorizonGrid grid_of(int steps, WrapMode over, int lines, WrapMode aside) const {
     return make_grid(axis_of(steps, over, least_period), axis_of(lines, aside, 1), most_near_rows_);
   }
 

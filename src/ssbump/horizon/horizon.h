@@ -1,9 +1,10 @@
-// ssbump/horizon/horizon.h - weights out of horizons: sweeps in some azimuths, exact integrals over the elevations.
+// ssbump/horizon/horizon.h - weights out of horizons: sweeps in some azimuths, exact integrals over the
+// elevations.
 #pragma once
 
 #include "ssbump/generate_options.h"
-#include "ssbump/map/weights.h"
 #include "ssbump/horizon/horizon_sums.h"
+#include "ssbump/map/weights.h"
 
 #include <cstdint>
 #include <functional>

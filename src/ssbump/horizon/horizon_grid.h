@@ -1,4 +1,5 @@
-// ssbump/horizon/horizon_grid.h - a height map as the sweep walks over it: step by step, many lines side by side.
+// ssbump/horizon/horizon_grid.h - a height map as the sweep walks over it: step by step, many lines side by
+// side.
 #pragma once
 
 #include "base/large_vector.h"
@@ -13,9 +14,9 @@ namespace rnmbake {
 struct GridAxis {
   int size = 0;    // texels of the map
   int period = 0;  // after which all repeats; `size` where the border goes on
-  Beyond beyond = Beyond::wrap;
+  WrapMode beyond = WrapMode::wrap;
 
-  [[nodiscard]] bool repeats() const { return beyond != Beyond::none; }
+  [[nodiscard]] bool repeats() const { return beyond != WrapMode::none; }
   /// Within the period; for axes that repeat. Mostly one period away at most: divisions are slow.
   [[nodiscard]] int fold(int i) const {
     if (i < 0) i += period;

@@ -1,5 +1,5 @@
-// ssbump/horizon/line_group.h - lines of a sweep that lie side by side, as many as a vector holds, and what they
-// pass.
+// ssbump/horizon/line_group.h - lines of a sweep that lie side by side, as many as a vector holds, and what
+// they pass.
 #pragma once
 
 #include "ssbump/horizon/sweep_lines.h"

@@ -1,5 +1,5 @@
-// ssbump/horizon/line_hull-inl.h - how the hulls of lines grow, and what is seen of them, some texels of a line at
-// once.
+// ssbump/horizon/line_hull-inl.h - how the hulls of lines grow, and what is seen of them, some texels of a
+// line at once.
 //
 // Compiled for several instruction sets by horizon_sweep.cpp; hence the guard that opens again for each.
 #if defined(RNMBAKE_SSBUMP_LINE_HULL_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,5 +1,5 @@
-// ssbump/horizon/line_tiles-inl.h - the heights along some lines of a sweep, and the tiles in which lines and steps
-// change places.
+// ssbump/horizon/line_tiles-inl.h - the heights along some lines of a sweep, and the tiles in which lines and
+// steps change places.
 //
 // Compiled for several instruction sets by horizon_sweep.cpp; hence the guard that opens again for each.
 #if defined(RNMBAKE_SSBUMP_LINE_TILES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "image/float_image.h"
-#include "texture/block_compression.h"
 #include "ssbump/map/encode.h"
+#include "texture/block_compression.h"
 
 namespace rnmbake {
 

@@ -1,5 +1,5 @@
-// ssbump/map/lobes.h - the axes that light is sorted by, and what arrives along them where nothing stands in the
-// way.
+// ssbump/map/lobes.h - the axes that light is sorted by, and what arrives along them where nothing stands in
+// the way.
 #pragma once
 
 #include "base/math.h"

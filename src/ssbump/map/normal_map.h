@@ -1,5 +1,5 @@
-// ssbump/map/normal_map.h - the tangent-space normals of a picture as unit vectors, y up; strict about what is
-// none.
+// ssbump/map/normal_map.h - the tangent-space normals of a picture as unit vectors, y up; strict about what
+// is none.
 #pragma once
 
 #include "image/float_image.h"

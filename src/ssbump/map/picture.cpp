@@ -33,19 +33,19 @@ FloatImage pixels_of(PictureReader& reader, const std::string& file) {
 }
 
 template <typename Value>
-void check_told(const std::string& file, const char* flag, const std::optional<Value>& told, Value said) {
-  if (told && *told != said) {
+void check_told(const std::string& file, const char* flag, const std::optional<Value>& hints, Value said) {
+  if (hints && *hints != said) {
     fail(ExitCode::usage, "{} says of itself that it is --{} {}, not {}; leave out the flag", file, flag,
-         name_of(said), name_of(*told));
+         name_of(said), name_of(*hints));
   }
 }
 
-SsbumpMetadata assumed(const std::string& file, const SsbumpTold& told) {
+SsbumpMetadata assumed(const std::string& file, const SsbumpHints& hints) {
   SsbumpMetadata metadata;
-  metadata.scale = told.scale.value_or(SsbumpScale::third);
-  metadata.handed = told.handed.value_or(Handed::right);
-  metadata.alpha = told.alpha.value_or(SsbumpAlpha::none);
-  if (!told.scale || !told.handed) {
+  metadata.scale = hints.scale.value_or(SsbumpScale::third);
+  metadata.handed = hints.handed.value_or(Handed::right);
+  metadata.alpha = hints.alpha.value_or(SsbumpAlpha::none);
+  if (!hints.scale || !hints.handed) {
     log::warn("{} does not say what it holds; taken as --scale {} --handed {}", file, name_of(metadata.scale),
               name_of(metadata.handed));
   }
@@ -54,16 +54,16 @@ SsbumpMetadata assumed(const std::string& file, const SsbumpTold& told) {
 
 }  // namespace
 
-SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpTold& told) {
+SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpHints& hints) {
   PictureReader reader(file);
   SsbumpPicture picture;
   const auto own = ssbump_metadata(reader.facts().attributes, file.string());
   picture.knows_itself = own.has_value();
-  picture.metadata = own ? *own : assumed(file.string(), told);
+  picture.metadata = own ? *own : assumed(file.string(), hints);
   if (own) {
-    check_told(file.string(), "scale", told.scale, own->scale);
-    check_told(file.string(), "handed", told.handed, own->handed);
-    check_told(file.string(), "alpha", told.alpha, own->alpha);
+    check_told(file.string(), "scale", hints.scale, own->scale);
+    check_told(file.string(), "handed", hints.handed, own->handed);
+    check_told(file.string(), "alpha", hints.alpha, own->alpha);
   }
   picture.storage = reader.facts().storage;
   const FloatImage pixels = pixels_of(reader, file.string());

@@ -13,7 +13,7 @@
 namespace rnmbake {
 
 /// What a file without metadata means, where the user says so.
-struct SsbumpTold {
+struct SsbumpHints {
   std::optional<SsbumpScale> scale;
   std::optional<Handed> handed;
   std::optional<SsbumpAlpha> alpha;
@@ -29,7 +29,7 @@ struct SsbumpPicture {
 /// What the file says of itself comes first, then `told`; else scale third, right-handed, no alpha, with a
 /// warning. Throws Error(usage) where `told` contradicts the file, Error(invalid_input) where there are fewer
 /// than three channels or a value is not finite (naming the texel), and as PictureReader.
-[[nodiscard]] SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpTold& told);
+[[nodiscard]] SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpHints& hints);
 
 /// Writes it whole, with `metadata` and what `output` says of encoding and storage.
 void write_ssbump(const SsbumpOutput& output, const SsbumpMetadata& metadata, const FloatImage& weights);

@@ -1,10 +1,11 @@
-// ssbump/mesh/mesh_occlusion.h - how a detailed surface shades itself, measured for the texels of a coarse one.
+// ssbump/mesh/mesh_occlusion.h - how a detailed surface shades itself, measured for the texels of a coarse
+// one.
 #pragma once
 
 #include "base/math.h"
 #include "image/float_image.h"
-#include "ssbump/mesh/low_texels.h"
 #include "ssbump/map/weights.h"
+#include "ssbump/mesh/low_texels.h"
 
 #include <cstddef>
 #include <cstdint>

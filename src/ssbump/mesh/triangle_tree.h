@@ -1,4 +1,5 @@
-// ssbump/mesh/triangle_tree.h - Embree's tree over plain triangles: what is met first, and is anything in the way.
+// ssbump/mesh/triangle_tree.h - Embree's tree over plain triangles: what is met first, and is anything in the
+// way.
 #pragma once
 
 #include "base/math.h"

@@ -1,5 +1,5 @@
-// ssbump/normal_shadows/lightmap_shadows.h - normal mapping shadows under baked light: our extension of the published
-// method.
+// ssbump/normal_shadows/lightmap_shadows.h - normal mapping shadows under baked light: our extension of the
+// published method.
 #pragma once
 
 #include "image/float_image.h"

@@ -1,4 +1,5 @@
-// ssbump/normal_shadows/normal_shadows.h - shadows that a bumpy surface casts on itself, out of its normal map alone.
+// ssbump/normal_shadows/normal_shadows.h - shadows that a bumpy surface casts on itself, out of its normal
+// map alone.
 #pragma once
 
 #include "base/math.h"

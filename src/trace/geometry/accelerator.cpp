@@ -5,8 +5,8 @@
 
 namespace rnmbake {
 
-Accelerator::Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunctionN filter) {
-  sort(triangles, looks);
+Accelerator::Accelerator(Triangles& triangles, const SurfaceMaterials& materials, RTCFilterFunctionN filter) {
+  sort(triangles, materials);
   triangles.position.reserve(triangles.position.size() + 2);  // Embree reads up to 16 bytes past them
   rtcSetDeviceMemoryMonitorFunction(embree_.device(), count_bytes, this);
   rtcSetSceneBuildQuality(scene(), RTC_BUILD_QUALITY_MEDIUM);
@@ -15,15 +15,15 @@ Accelerator::Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunc
   embree_.build(triangles.size());
 }
 
-void Accelerator::sort(const Triangles& triangles, const Looks& looks) {
-  const auto lets_through = [&](std::uint32_t look) { return looks.see_through(look); };
-  if (std::none_of(triangles.look.begin(), triangles.look.end(), lets_through)) {
+void Accelerator::sort(const Triangles& triangles, const SurfaceMaterials& materials) {
+  const auto lets_through = [&](std::uint32_t material) { return materials.see_through(material); };
+  if (std::none_of(triangles.material.begin(), triangles.material.end(), lets_through)) {
     corners_[0].resize(triangles.position.size());
     std::iota(corners_[0].begin(), corners_[0].end(), 0U);
     return;
   }
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::size_t kind = lets_through(triangles.look[t]) ? 1 : 0;
+    const std::size_t kind = lets_through(triangles.material[t]) ? 1 : 0;
     numbers_[kind].push_back(t);
     for (std::uint32_t k = 0; k < 3; ++k) corners_[kind].push_back(3 * t + k);
   }

@@ -17,7 +17,7 @@ class Accelerator {
  public:
   /// `filter` is asked about every hit on a see-through triangle, in both kinds of query. Throws
   /// Error(environment) where Embree fails. The triangles must outlive it and keep their place.
-  Accelerator(Triangles& triangles, const Looks& looks, RTCFilterFunctionN filter);
+  Accelerator(Triangles& triangles, const SurfaceMaterials& materials, RTCFilterFunctionN filter);
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
@@ -30,7 +30,7 @@ class Accelerator {
   [[nodiscard]] std::ptrdiff_t bytes() const { return bytes_; }
 
  private:
-  void sort(const Triangles& triangles, const Looks& looks);
+  void sort(const Triangles& triangles, const SurfaceMaterials& materials);
   void add(unsigned geometry, const Triangles& triangles, RTCFilterFunctionN filter);
   static bool count_bytes(void* self, ssize_t bytes, bool after);
 

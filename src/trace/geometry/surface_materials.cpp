@@ -21,7 +21,7 @@ Taps taps(float place, int count) {
 
 }  // namespace
 
-Vec3 look_up(const Picture& picture, const Vec2& uv) {
+Vec3 lookup(const Texture& picture, const Vec2& uv) {
   const Taps x = taps(uv.x * static_cast<float>(picture.width) - 0.5F, picture.width);
   const Taps y = taps((1 - uv.y) * static_cast<float>(picture.height) - 0.5F, picture.height);
   const auto row = [&](int line) {

@@ -9,32 +9,34 @@
 namespace rnmbake {
 
 /// Bilinear, clamped at the borders, v up: what Cycles' image texture gives with Linear and EXTEND.
-[[nodiscard]] Vec3 look_up(const Picture& picture, const Vec2& uv);
+[[nodiscard]] Vec3 lookup(const Texture& picture, const Vec2& uv);
 
-class Looks {
+class SurfaceMaterials {
  public:
-  explicit Looks(const Exchange& scene) : scene_(&scene) {}
+  explicit SurfaceMaterials(const DiffuseScene& scene) : scene_(&scene) {}
 
   /// In [0, 1].
-  [[nodiscard]] Vec3 albedo(std::uint32_t look, const Vec2& uv) const {
-    const Look& it = scene_->looks[look];
-    return it.albedo_picture < 0 ? it.albedo : unit(look_up(scene_->pictures[it.albedo_picture], uv));
+  [[nodiscard]] Vec3 albedo(std::uint32_t material, const Vec2& uv) const {
+    const SurfaceMaterial& it = scene_->materials[material];
+    return it.albedo_picture < 0 ? it.albedo : unit(lookup(scene_->pictures[it.albedo_picture], uv));
   }
   /// In [0, 1].
-  [[nodiscard]] Vec3 transmittance(std::uint32_t look, const Vec2& uv) const {
-    const Look& it = scene_->looks[look];
+  [[nodiscard]] Vec3 transmittance(std::uint32_t material, const Vec2& uv) const {
+    const SurfaceMaterial& it = scene_->materials[material];
     if (it.transmittance_picture < 0) return it.transmittance;
-    return unit(look_up(scene_->pictures[it.transmittance_picture], uv));
+    return unit(lookup(scene_->pictures[it.transmittance_picture], uv));
   }
   /// Whether light goes through some of it.
-  [[nodiscard]] bool see_through(std::uint32_t look) const { return scene_->looks[look].see_through(); }
-  /// Radiance.
-  [[nodiscard]] Vec3 emission(std::uint32_t look, const Vec2& uv) const {
-    const Look& it = scene_->looks[look];
-    return it.emission_picture < 0 ? it.emission : look_up(scene_->pictures[it.emission_picture], uv);
+  [[nodiscard]] bool see_through(std::uint32_t material) const {
+    return scene_->materials[material].see_through();
   }
-  [[nodiscard]] bool emits(std::uint32_t look) const {
-    const Look& it = scene_->looks[look];
+  /// Radiance.
+  [[nodiscard]] Vec3 emission(std::uint32_t material, const Vec2& uv) const {
+    const SurfaceMaterial& it = scene_->materials[material];
+    return it.emission_picture < 0 ? it.emission : lookup(scene_->pictures[it.emission_picture], uv);
+  }
+  [[nodiscard]] bool emits(std::uint32_t material) const {
+    const SurfaceMaterial& it = scene_->materials[material];
     return it.emission_picture >= 0 || it.emission != Vec3(0, 0, 0);
   }
 
@@ -43,7 +45,7 @@ class Looks {
     const auto clamp = [](float v) { return v < 0 ? 0.0F : v > 1 ? 1.0F : v; };
     return {clamp(c.x), clamp(c.y), clamp(c.z)};
   }
-  const Exchange* scene_;
+  const DiffuseScene* scene_;
 };
 
 }  // namespace rnmbake

@@ -13,17 +13,17 @@ bool finite(const Vec3& v) {
 }
 
 /// Appends one object's triangles. A mirrored object keeps its front: two corners change places.
-void add_object(const Exchange& scene, std::size_t object_index, const Vec3d& origin, Triangles& out) {
+void add_object(const DiffuseScene& scene, std::size_t object_index, const Vec3d& origin, Triangles& out) {
   const SceneObject& object = scene.survey.objects[object_index];
   const Mesh& mesh = scene.survey.mesh_of(object);
   const Mat44 for_normals = object.to_world.inverse().transposed();
   const bool mirrored = object.to_world.determinant() < 0;
-  const auto& looks = scene.object_looks[object_index];
+  const auto& materials = scene.object_materials[object_index];
 
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {
     const std::uint32_t slot = mesh.polygon_slot[mesh.triangle_polygon[t]];
-    const int look = looks[std::min<std::size_t>(slot, looks.size() - 1)];
-    const int uvs = scene.looks[look].picture_uv;
+    const int material = materials[std::min<std::size_t>(slot, materials.size() - 1)];
+    const int uvs = scene.materials[material].picture_uv;
     Vec3 p[3], n[3];
     Vec2 uv[3];
     for (int k = 0; k < 3; ++k) {
@@ -43,7 +43,7 @@ void add_object(const Exchange& scene, std::size_t object_index, const Vec3d& or
       out.normal.push_back(finite(n[k]) && n[k].length2() > 0 ? n[k] : Vec3(face / length));
       out.uv.push_back(uv[k]);
     }
-    out.look.push_back(static_cast<std::uint32_t>(look));
+    out.material.push_back(static_cast<std::uint32_t>(material));
     out.object.push_back(static_cast<std::uint32_t>(object_index));
     out.source.push_back(static_cast<std::uint32_t>(t));
   }
@@ -51,7 +51,7 @@ void add_object(const Exchange& scene, std::size_t object_index, const Vec3d& or
 
 }  // namespace
 
-Vec3d middle_of(const Exchange& scene) {
+Vec3d middle_of(const DiffuseScene& scene) {
   Imath::Box3d box;
   for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
     if (!scene.takes_part(i)) continue;
@@ -63,7 +63,7 @@ Vec3d middle_of(const Exchange& scene) {
   return box.isEmpty() ? Vec3d(0) : box.center();
 }
 
-Triangles world_triangles(const Exchange& scene, const Vec3d& origin) {
+Triangles world_triangles(const DiffuseScene& scene, const Vec3d& origin) {
   Triangles triangles;
   for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
     if (scene.takes_part(i)) add_object(scene, i, origin, triangles);

@@ -17,7 +17,7 @@ float brightness(const Vec3& c) {
 /// Sums over rectangles of a picture's texels.
 class PictureSums {
  public:
-  explicit PictureSums(const Picture& picture) : picture_(picture), width_(picture.width + 1) {
+  explicit PictureSums(const Texture& picture) : picture_(picture), width_(picture.width + 1) {
     const std::size_t size = std::size_t(width_) * (picture.height + 1);
     light_.resize(size);
     lit_.resize(size);
@@ -56,7 +56,7 @@ class PictureSums {
                                        static_cast<float>(count)));
   }
 
-  const Picture& picture_;
+  const Texture& picture_;
   std::size_t width_;
   std::vector<double> light_;
   std::vector<std::uint32_t> lit_;
@@ -64,11 +64,12 @@ class PictureSums {
 
 class Finder {
  public:
-  explicit Finder(const Exchange& scene) : scene_(scene), looks_(scene), sums_(scene.pictures.size()) {}
+  explicit Finder(const DiffuseScene& scene)
+      : scene_(scene), materials_(scene), sums_(scene.pictures.size()) {}
 
-  [[nodiscard]] float brightness_of(std::uint32_t look, const Vec2* uv) {
-    const int picture = scene_.looks[look].emission_picture;
-    if (picture < 0) return brightness(scene_.looks[look].emission);
+  [[nodiscard]] float brightness_of(std::uint32_t material, const Vec2* uv) {
+    const int picture = scene_.materials[material].emission_picture;
+    if (picture < 0) return brightness(scene_.materials[material].emission);
     if (!sums_[picture]) sums_[picture] = std::make_unique<PictureSums>(scene_.pictures[picture]);
     Vec2 low = uv[0], high = uv[0];
     for (int k = 1; k < 3; ++k) {
@@ -76,43 +77,43 @@ class Finder {
       high = Vec2(std::max(high.x, uv[k].x), std::max(high.y, uv[k].y));
     }
     const float around = sums_[picture]->mean(low, high);
-    return around > 0 ? (around + 3 * inside(look, uv)) / 4 : 0.0F;
+    return around > 0 ? (around + 3 * inside(material, uv)) / 4 : 0.0F;
   }
 
  private:
   /// A mean of a few places on the triangle; its texels' rectangle covers neighbours, too.
-  [[nodiscard]] float inside(std::uint32_t look, const Vec2* uv) const {
+  [[nodiscard]] float inside(std::uint32_t material, const Vec2* uv) const {
     constexpr int steps = 4;
     float sum = 0;
     for (int i = 0; i < steps; ++i) {
       for (int j = 0; i + j < steps; ++j) {
         const float b1 = (static_cast<float>(i) + 1.0F / 3) / steps;
         const float b2 = (static_cast<float>(j) + 1.0F / 3) / steps;
-        sum += brightness(looks_.emission(look, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
+        sum += brightness(materials_.emission(material, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
       }
     }
     constexpr int places = steps * (steps + 1) / 2;
     return sum / places;
   }
 
-  const Exchange& scene_;
-  Looks looks_;
+  const DiffuseScene& scene_;
+  SurfaceMaterials materials_;
   std::vector<std::unique_ptr<PictureSums>> sums_;  // [pictures], made when first asked for
 };
 
 }  // namespace
 
-std::vector<Glow> glowing_triangles(const Exchange& scene, const Triangles& triangles) {
+std::vector<EmissiveTriangle> glowing_triangles(const DiffuseScene& scene, const Triangles& triangles) {
   Finder finder(scene);
-  const Looks looks(scene);
-  std::vector<Glow> found;
+  const SurfaceMaterials materials(scene);
+  std::vector<EmissiveTriangle> found;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!looks.emits(triangles.look[t])) continue;
-    Glow glow;
-    glow.brightness = finder.brightness_of(triangles.look[t], &triangles.uv[3 * t]);
+    if (!materials.emits(triangles.material[t])) continue;
+    EmissiveTriangle glow;
+    glow.brightness = finder.brightness_of(triangles.material[t], &triangles.uv[3 * t]);
     if (!(glow.brightness > 0)) continue;
     const Vec3* p = &triangles.position[3 * t];
-    glow.shape = glow_triangle(p[0], p[1], p[2]);
+    glow.shape = light_triangle(p[0], p[1], p[2]);
     glow.triangle = static_cast<std::uint32_t>(t);
     if (glow.shape.area > 0) found.push_back(glow);
   }

@@ -10,7 +10,7 @@ namespace rnmbake {
 namespace {
 
 /// Towards `place`; distance 0 where the point lies on it.
-LightSample towards(const Vec3& point, const Vec3& place) {
+LightSample wo(const Vec3& point, const Vec3& place) {
   LightSample sample;
   const Vec3 way = place - point;
   sample.distance = way.length();
@@ -19,7 +19,7 @@ LightSample towards(const Vec3& point, const Vec3& place) {
 }
 
 LightSample sample_point(const Lamp& lamp, const Vec3& point) {
-  LightSample sample = towards(point, lamp.position);
+  LightSample sample = wo(point, lamp.position);
   if (sample.distance == 0) return {};
   const float share = spot_share(lamp.spot, -sample.direction);
   sample.radiance = lamp.radiance * (share / (sample.distance * sample.distance));
@@ -29,7 +29,7 @@ LightSample sample_point(const Lamp& lamp, const Vec3& point) {
 
 /// Seen from `point` the disk is a cone of directions, with the same radiance from each.
 LightSample sample_disk(const Lamp& lamp, const Vec3& point, const Vec2& u) {
-  const LightSample centre = towards(point, lamp.position);
+  const LightSample centre = wo(point, lamp.position);
   if (centre.distance == 0) return {};
   const float ratio = lamp.radius / centre.distance;
   const float slant = std::sqrt(1 + ratio * ratio);            // 1 / cosine at the rim
@@ -52,7 +52,7 @@ float sphere_distance(const Vec3& way, const Vec3& direction, float radius, bool
 }
 
 LightSample sample_sphere(const Lamp& lamp, const Vec3& point, const Vec2& u) {
-  const LightSample centre = towards(point, lamp.position);
+  const LightSample centre = wo(point, lamp.position);
   const Vec3 way = lamp.position - point;
   const bool inside = centre.distance <= lamp.radius;
   LightSample sample;
@@ -120,7 +120,7 @@ Reach reach_of(const Lamp& lamp, const Vec3& point, float height) {
 
 /// From a place on an area that was chosen with a density per area.
 LightSample by_area(const Lamp& lamp, const Vec3& point, const Vec3& place, float density) {
-  LightSample sample = towards(point, place);
+  LightSample sample = wo(point, place);
   const float cosine = -sample.direction.dot(lamp.axis);
   if (sample.distance == 0 || cosine <= 0) return {};
   const float share = spread_share(lamp, cosine);
@@ -142,7 +142,7 @@ LightSample sample_rectangle(const Lamp& lamp, const Vec3& point, const Vec2& u)
     const Vec3 place = centre + half_u * (2 * u.x - 1) + half_v * (2 * u.y - 1);
     return by_area(lamp, point, place, 1 / (4 * half_u.cross(half_v).length()));
   }
-  LightSample sample = towards(point, seen.place(u));
+  LightSample sample = wo(point, seen.place(u));
   const float cosine = -sample.direction.dot(lamp.axis);
   const float share = cosine > 0 ? spread_share(lamp, cosine) : 0.0F;
   sample.radiance = lamp.radiance * share;

@@ -56,7 +56,7 @@ LightBounds lamp_bounds(const Lamp& lamp) {
   return bounds;
 }
 
-LightBounds glow_bounds(const Glow& glow) {
+LightBounds emissive_triangle_bounds(const EmissiveTriangle& glow) {
   LightBounds bounds;
   const Vec3& a = glow.shape.corner;
   const Vec3 b = a + glow.shape.edge1, c = a + glow.shape.edge2;

@@ -1,4 +1,5 @@
-// trace/lights/light_bounds.h - where lamps and glowing triangles are and which way they shine, for the light tree.
+// trace/lights/light_bounds.h - where lamps and glowing triangles are and which way they shine, for the light
+// tree.
 #pragma once
 
 #include "trace/lights/emissive_triangle.h"
@@ -9,6 +10,6 @@ namespace rnmbake {
 
 /// Of any lamp but a sun.
 [[nodiscard]] LightBounds lamp_bounds(const Lamp& lamp);
-[[nodiscard]] LightBounds glow_bounds(const Glow& glow);
+[[nodiscard]] LightBounds emissive_triangle_bounds(const EmissiveTriangle& glow);
 
 }  // namespace rnmbake

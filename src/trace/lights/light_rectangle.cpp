@@ -25,8 +25,8 @@ SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& 
   z_ = x_.cross(y_);
   const Vec3 way = centre - point;
   // Seen from afar places even by area are as good, and cheaper.
-  const float gap = way.length() - (length_u + length_v);
-  if (gap > 0 && 4 * length_u * length_v < far * gap * gap) return;
+  const float ray_offset = way.length() - (length_u + length_v);
+  if (ray_offset > 0 && 4 * length_u * length_v < far * ray_offset * ray_offset) return;
   z0_ = way.dot(z_);
   if (z0_ > 0) {
     z_ = -z_;

@@ -1,4 +1,5 @@
-// trace/lights/light_rectangle.h - a rectangle sampled uniformly by the solid angle it fills (Urena et al. 2013).
+// trace/lights/light_rectangle.h - a rectangle sampled uniformly by the solid angle it fills (Urena et al.
+// 2013).
 #pragma once
 
 #include "base/math.h"

@@ -14,7 +14,7 @@ struct LightSample {
   /// Per solid angle, choice of the light included; for a delta light: of its choice. 0: nothing arrives.
   float pdf = 0;
   /// A ray in this direction could find it too: weigh the two ways against each other.
-  bool chance_hits = false;
+  bool sample_bsdf = false;
   /// It lights paths that bounced off no more surfaces.
   int max_bounces = 1024;
 };

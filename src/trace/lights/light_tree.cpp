@@ -43,9 +43,9 @@ float LightTree::weigh(const Node& node, const Vec3& point, const Vec3& normal, 
     const float sin_b = std::sqrt(sin_b2), cos_outside = std::sqrt(pick(rest_b > 0, rest_b, 0.0F));
     const float cos_b = pick(inside, -1.0F, cos_outside);
 
-    const float towards = (node.axis_x[i] * wx + node.axis_y[i] * wy + node.axis_z[i] * wz) * scale;
-    const float two_sided = node.two_sided[i], either = std::abs(towards);
-    const float along = pick(two_sided > 0, either, towards);
+    const float wo = (node.axis_x[i] * wx + node.axis_y[i] * wy + node.axis_z[i] * wz) * scale;
+    const float two_sided = node.two_sided[i], either = std::abs(wo);
+    const float along = pick(two_sided > 0, either, wo);
     const float off_axis = cosine_between(along, sine_of(along), node.cos_normals[i], node.sin_normals[i]);
     const float leaving = cosine_between(off_axis, sine_of(off_axis), cos_b, sin_b);
     const float least = pick(leaving > slack, leaving, slack), edge = node.emission[i] - slack;

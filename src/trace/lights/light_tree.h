@@ -1,5 +1,5 @@
-// trace/lights/light_tree.h - chooses one of many lights by what each may send to a point (Conty Estevez & Kulla
-// 2018).
+// trace/lights/light_tree.h - chooses one of many lights by what each may send to a point (Conty Estevez &
+// Kulla 2018).
 #pragma once
 
 #include "base/math.h"

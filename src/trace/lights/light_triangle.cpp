@@ -18,7 +18,7 @@ struct SeenTriangle {
   float solid_angle = 0;  // 0: not to be used
 };
 
-SeenTriangle seen_from(const GlowTriangle& t, const Vec3& point) {
+SeenTriangle seen_from(const LightTriangle& t, const Vec3& point) {
   SeenTriangle seen;
   const Vec3 to_corner = t.corner - point;
   const float height = std::abs(to_corner.dot(t.normal));
@@ -26,8 +26,8 @@ SeenTriangle seen_from(const GlowTriangle& t, const Vec3& point) {
   // Seldom near enough: an upper bound of the solid angle spares the roots below.
   const Vec3 to_centre = to_corner + (t.edge1 + t.edge2) / 3;
   const float radius2 = std::max(t.edge1.length2(), t.edge2.length2());
-  const float gap = std::sqrt(to_centre.length2()) - std::sqrt(radius2);
-  if (gap > 0 && t.area < smallest * gap * gap) return seen;
+  const float ray_offset = std::sqrt(to_centre.length2()) - std::sqrt(radius2);
+  if (ray_offset > 0 && t.area < smallest * ray_offset * ray_offset) return seen;
   if (height * height < 1e-8F * reach2) return seen;
   seen.a = to_corner.normalized();
   seen.b = (to_corner + t.edge1).normalized();
@@ -60,8 +60,8 @@ Vec3 direction_in(const SeenTriangle& s, const Vec2& u) {
 
 }  // namespace
 
-GlowTriangle glow_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  GlowTriangle t;
+LightTriangle light_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  LightTriangle t;
   t.corner = a;
   t.edge1 = b - a;
   t.edge2 = c - a;
@@ -72,7 +72,7 @@ GlowTriangle glow_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return t;
 }
 
-GlowTriangle::Place GlowTriangle::sample(const Vec3& point, const Vec2& u) const {
+LightTriangle::Place LightTriangle::sample(const Vec3& point, const Vec2& u) const {
   Place place;
   const SeenTriangle seen = seen_from(*this, point);
   if (seen.solid_angle > 0) {
@@ -100,7 +100,7 @@ GlowTriangle::Place GlowTriangle::sample(const Vec3& point, const Vec2& u) const
   return place;
 }
 
-float GlowTriangle::pdf(const Vec3& point, const Vec3& direction, float distance) const {
+float LightTriangle::pdf(const Vec3& point, const Vec3& direction, float distance) const {
   const SeenTriangle seen = seen_from(*this, point);
   if (seen.solid_angle > 0) return 1 / seen.solid_angle;
   const float cosine = std::abs(direction.dot(normal));

@@ -1,12 +1,12 @@
-// trace/lights/light_triangle.h - a glowing triangle, sampled by area where it looks small and by solid angle where
-// it looks large (Arvo 1995).
+// trace/lights/light_triangle.h - a glowing triangle, sampled by area where it looks small and by solid angle
+// where it looks large (Arvo 1995).
 #pragma once
 
 #include "base/math.h"
 
 namespace rnmbake {
 
-struct GlowTriangle {
+struct LightTriangle {
   Vec3 corner{0, 0, 0}, edge1{0, 0, 0}, edge2{0, 0, 0};  // corner 0; from it to corners 1 and 2
   Vec3 normal{0, 0, 1};                                  // unit
   float area = 0;
@@ -24,6 +24,6 @@ struct GlowTriangle {
   [[nodiscard]] float pdf(const Vec3& point, const Vec3& direction, float distance) const;
 };
 
-[[nodiscard]] GlowTriangle glow_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+[[nodiscard]] LightTriangle light_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace rnmbake

@@ -125,7 +125,8 @@ class Reader {
 
 }  // namespace
 
-std::vector<Lamp> read_lamps(const Survey& survey, const std::string& blender_version, const Vec3d& origin) {
+std::vector<Lamp> read_lamps(const SceneSurvey& survey, const std::string& blender_version,
+                             const Vec3d& origin) {
   const Reader reader(version_number(blender_version), origin);
   std::vector<Lamp> lamps;
   for (const LightInfo& light : survey.lights) {

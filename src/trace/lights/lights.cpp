@@ -1,12 +1,12 @@
 #include "trace/lights/lights.h"
 
 #include "sampling/warps.h"
-#include "trace/lights/light_bounds.h"
+#include "trace/geometry/surface_materials.h"
 #include "trace/lights/emissive_triangle.h"
 #include "trace/lights/lamp.h"
+#include "trace/lights/light_bounds.h"
 #include "trace/lights/light_tree.h"
 #include "trace/lights/light_units.h"
-#include "trace/geometry/surface_materials.h"
 #include "trace/lights/world_light.h"
 
 #include <algorithm>
@@ -39,18 +39,21 @@ float sun_importance(const Lamp& sun, const Vec3& normal) {
 
 /// What is chosen from: the tree, the world, and each sun.
 struct Lights::Impl {
-  Impl(const Exchange& exchange, const Triangles& all, const std::string& blender_version,
+  Impl(const DiffuseScene& diffuse_scene, const Triangles& all, const std::string& blender_version,
        const Vec3d& origin)
-      : triangles(all), looks(exchange), world(exchange), glows(glowing_triangles(exchange, all)) {
-    for (Lamp& lamp : read_lamps(exchange.survey, blender_version, origin)) {
+      : triangles(all),
+        materials(diffuse_scene),
+        world(diffuse_scene),
+        emissive_triangles(glowing_triangles(diffuse_scene, all)) {
+    for (Lamp& lamp : read_lamps(diffuse_scene.survey, blender_version, origin)) {
       (lamp.kind == Lamp::Kind::sun ? suns : lamps).push_back(lamp);
     }
     std::vector<LightBounds> bounds;
     for (const Lamp& lamp : lamps) bounds.push_back(lamp_bounds(lamp));
-    glow_of.assign(glows.empty() ? 0 : all.size(), not_glowing);
-    for (std::size_t i = 0; i < glows.size(); ++i) {
-      bounds.push_back(glow_bounds(glows[i]));
-      glow_of[glows[i].triangle] = static_cast<std::uint32_t>(i);
+    emissive_triangle_of.assign(emissive_triangles.empty() ? 0 : all.size(), not_glowing);
+    for (std::size_t i = 0; i < emissive_triangles.size(); ++i) {
+      bounds.push_back(emissive_triangle_bounds(emissive_triangles[i]));
+      emissive_triangle_of[emissive_triangles[i].triangle] = static_cast<std::uint32_t>(i);
     }
     tree = LightTree(bounds);
   }
@@ -88,24 +91,27 @@ struct Lights::Impl {
                                         float u) const {
     const LightTree::Choice choice = tree.choose(point, normal, u);
     if (choice.probability == 0) return {};
-    LightSample sample = choice.light < lamps.size()
-                             ? sample_lamp(lamps[choice.light], point, place)
-                             : sample_glow(glows[choice.light - lamps.size()], point, place);
+    LightSample sample =
+        choice.light < lamps.size()
+            ? sample_lamp(lamps[choice.light], point, place)
+            : sample_emissive_triangle(emissive_triangles[choice.light - lamps.size()], point, place);
     sample.pdf *= choice.probability;
     return sample;
   }
 
-  [[nodiscard]] LightSample sample_glow(const Glow& glow, const Vec3& point, const Vec2& u) const {
-    const GlowTriangle::Place place = glow.shape.sample(point, u);
+  [[nodiscard]] LightSample sample_emissive_triangle(const EmissiveTriangle& glow, const Vec3& point,
+                                                     const Vec2& u) const {
+    const LightTriangle::Place place = glow.shape.sample(point, u);
     if (place.pdf == 0) return {};
     LightSample sample;
     sample.direction = place.direction;
     sample.distance = place.distance;
     sample.pdf = place.pdf;
-    sample.chance_hits = true;
+    sample.sample_bsdf = true;
     const Vec2* uv = &triangles.uv[3 * std::size_t(glow.triangle)];
-    sample.radiance = looks.emission(triangles.look[glow.triangle],
-                                     uv[0] * (1 - place.b1 - place.b2) + uv[1] * place.b1 + uv[2] * place.b2);
+    sample.radiance =
+        materials.emission(triangles.material[glow.triangle],
+                           uv[0] * (1 - place.b1 - place.b2) + uv[1] * place.b1 + uv[2] * place.b2);
     return sample;
   }
 
@@ -125,15 +131,15 @@ struct Lights::Impl {
   }
 
   const Triangles& triangles;
-  Looks looks;
+  SurfaceMaterials materials;
   WorldLight world;
-  std::vector<Glow> glows;
-  std::vector<std::uint32_t> glow_of;  // [triangles] -> glows; empty where nothing glows
+  std::vector<EmissiveTriangle> emissive_triangles;
+  std::vector<std::uint32_t> emissive_triangle_of;  // [triangles] -> glows; empty where nothing glows
   std::vector<Lamp> lamps, suns;
   LightTree tree;  // of lamps, then glows
 };
 
-Lights::Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version,
+Lights::Lights(const DiffuseScene& scene, const Triangles& triangles, const std::string& blender_version,
                const Vec3d& origin)
     : impl_(std::make_unique<Impl>(scene, triangles, blender_version, origin)) {}
 Lights::~Lights() = default;
@@ -184,13 +190,14 @@ float Lights::world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direc
 
 float Lights::triangle_pdf(const Vec3& point, const Vec3& normal, std::uint32_t triangle,
                            const Vec3& direction, float distance) const {
-  if (impl_->glow_of.empty() || impl_->glow_of[triangle] == not_glowing) return 0;
-  const std::uint32_t glow = impl_->glow_of[triangle];
+  if (impl_->emissive_triangle_of.empty() || impl_->emissive_triangle_of[triangle] == not_glowing) return 0;
+  const std::uint32_t glow = impl_->emissive_triangle_of[triangle];
   const auto light = static_cast<std::uint32_t>(impl_->lamps.size()) + glow;
   const float choice = impl_->tree.probability(point, normal, light);
   if (choice == 0) return 0;
   const Impl::Weights weights = impl_->weigh(point, normal);
-  return weights.share(weights.tree) * choice * impl_->glows[glow].shape.pdf(point, direction, distance);
+  return weights.share(weights.tree) * choice *
+         impl_->emissive_triangles[glow].shape.pdf(point, direction, distance);
 }
 
 }  // namespace rnmbake

@@ -1,10 +1,11 @@
-// trace/lights/lights.h - everything that emits, to be sampled from a point: lamps, suns, world, glowing triangles.
+// trace/lights/lights.h - everything that emits, to be sampled from a point: lamps, suns, world, glowing
+// triangles.
 #pragma once
 
 #include "base/math.h"
 #include "scene/diffuse_scene.h"
-#include "trace/lights/light_sample.h"
 #include "trace/geometry/triangles.h"
+#include "trace/lights/light_sample.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,7 +20,7 @@ class Lights {
  public:
   /// Scene and triangles must outlive it; the triangles are relative to `origin`, and so is everything then.
   /// `blender_version` ("3.4.1") says what the numbers of a light mean (docs/reference.md).
-  Lights(const Exchange& scene, const Triangles& triangles, const std::string& blender_version,
+  Lights(const DiffuseScene& scene, const Triangles& triangles, const std::string& blender_version,
          const Vec3d& origin = Vec3d(0));
   ~Lights();
   Lights(Lights&&) noexcept;

@@ -58,7 +58,7 @@ double running_sums(const std::vector<double>& weights, float* sums) {
 
 }  // namespace
 
-WorldLight::WorldLight(const Exchange& scene) : constant_(scene.world.radiance) {
+WorldLight::WorldLight(const DiffuseScene& scene) : constant_(scene.world.radiance) {
   if (scene.world.picture < 0) {
     average_ = brightness(constant_);
     return;
@@ -116,7 +116,7 @@ Vec3 WorldLight::radiance(const Vec3& direction) const {
 LightSample WorldLight::sample(const Vec3& normal, const Vec2& u, float extra) const {
   LightSample sample = picture_ ? sample_picture(u) : sample_constant(normal, u, extra);
   sample.distance = infinity;
-  sample.chance_hits = true;
+  sample.sample_bsdf = true;
   return sample;
 }
 

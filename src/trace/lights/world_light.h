@@ -1,4 +1,5 @@
-// trace/lights/world_light.h - light from where nothing is hit: constant, or a picture sampled by what it holds.
+// trace/lights/world_light.h - light from where nothing is hit: constant, or a picture sampled by what it
+// holds.
 #pragma once
 
 #include "base/math.h"
@@ -15,7 +16,7 @@ namespace rnmbake {
 /// nothing that shines goes unsampled.
 class WorldLight {
  public:
-  explicit WorldLight(const Exchange& scene);
+  explicit WorldLight(const DiffuseScene& scene);
 
   [[nodiscard]] bool black() const { return average_ == 0; }
   [[nodiscard]] bool even() const { return picture_ == nullptr; }
@@ -34,7 +35,7 @@ class WorldLight {
   [[nodiscard]] static float constant_pdf(const Vec3& normal, const Vec3& direction);
 
   Vec3 constant_{0, 0, 0};
-  const Picture* picture_ = nullptr;
+  const Texture* picture_ = nullptr;
   float average_ = 0;
   std::vector<float> solid_angles_;  // of a cell in each row
   std::vector<float> rows_;          // running sums over the rows, [height + 1], ends at 1

@@ -1,7 +1,7 @@
 // The command as a user calls it: exit codes, messages and files.
 #include "base/files.h"
-#include "encoding/rnm.h"
 #include "cli/command_test.h"
+#include "encoding/rnm.h"
 #include "image/layered_exr.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"

@@ -17,15 +17,15 @@ struct Bake {
       : scene(objects, settings),
         context(scene.context()),
         workspace(scene.config(), blender),
-        desk(context, scene.settings().output, scene.notes()) {}
+        collector(context, scene.settings().output, scene.notes()) {}
 
-  BakeTimings run() { return run_dispatches(workspace, context, BlendPath("scene.blend"), desk); }
+  BakeTimings run() { return run_batches(workspace, context, BlendPath("scene.blend"), collector); }
 
   Invented scene;
   BakeContext context;
   FakeBlender blender;
   Workspace workspace;
-  DeliveryDesk desk;
+  BakeCollector collector;
 };
 
 /// Fails every launch that holds this one.
@@ -55,7 +55,7 @@ TEST(Dispatcher, DeliversEverythingInOneLaunch) {
   Bake bake(5);
   const BakeTimings timings = bake.run();
   EXPECT_EQ(bake.blender.launches.size(), 1U);
-  for (std::size_t t = 0; t < 5; ++t) EXPECT_TRUE(is_delivered(bake.desk, t));
+  for (std::size_t t = 0; t < 5; ++t) EXPECT_TRUE(is_delivered(bake.collector, t));
   EXPECT_EQ(bake.scene.files().size(), 5U);
   EXPECT_EQ(timings.launches, 1);
   EXPECT_EQ(timings.failed_launches, 0);
@@ -70,7 +70,7 @@ TEST(Dispatcher, LaunchesAsOftenAsTheModeSays) {
     Bake bake(3, with_dispatch(mode));
     (void)bake.run();
     EXPECT_EQ(bake.blender.launches.size(), launches);
-    for (std::size_t t = 0; t < 3; ++t) EXPECT_TRUE(is_delivered(bake.desk, t));
+    for (std::size_t t = 0; t < 3; ++t) EXPECT_TRUE(is_delivered(bake.collector, t));
   }
 }
 
@@ -80,8 +80,8 @@ TEST(Dispatcher, FindsTheOffenderAndDeliversTheRest) {
       Bake bake(9);
       bake.blender.fault = offender(guilty, basis, failure(Kind::crashed, "Blender crashed (SIGSEGV)"));
       (void)bake.run();
-      for (std::size_t t = 0; t < 9; ++t) EXPECT_EQ(is_delivered(bake.desk, t), t != guilty);
-      const std::string reason = reason_of(bake.desk, guilty);
+      for (std::size_t t = 0; t < 9; ++t) EXPECT_EQ(is_delivered(bake.collector, t), t != guilty);
+      const std::string reason = reason_of(bake.collector, guilty);
       EXPECT_NE(reason.find("basis " + bake.context.bases[basis].name), std::string::npos) << reason;
       EXPECT_NE(reason.find("Blender crashed (SIGSEGV)"), std::string::npos) << reason;
       EXPECT_EQ(bake.scene.files().size(), 8U);
@@ -97,7 +97,8 @@ TEST(Dispatcher, FindsSeveralOffenders) {
     return guilty ? std::optional(failure(Kind::crashed, "signal 6")) : std::nullopt;
   };
   (void)bake.run();
-  for (std::size_t t = 0; t < 16; ++t) EXPECT_EQ(is_delivered(bake.desk, t), t != 3 && t != 4 && t != 15);
+  for (std::size_t t = 0; t < 16; ++t)
+    EXPECT_EQ(is_delivered(bake.collector, t), t != 3 && t != 4 && t != 15);
 }
 
 TEST(Dispatcher, SplitsWithoutRetryingJoinedLaunches) {
@@ -132,7 +133,7 @@ TEST(Dispatcher, DeliversWhatARetryBrought) {
                                                 : std::nullopt;
   };
   const BakeTimings timings = bake.run();
-  EXPECT_TRUE(is_delivered(bake.desk, 0));
+  EXPECT_TRUE(is_delivered(bake.collector, 0));
   EXPECT_EQ(timings.failed_launches, 1);
 }
 
@@ -142,8 +143,8 @@ TEST(Dispatcher, DoesNotAskAgainWhereTheScriptRefused) {
       offender(0, 0, failure(Kind::refused, "object 'object0': no faces", int(ExitCode::invalid_input)));
   (void)bake.run();
   EXPECT_EQ(launches_of(bake.blender, {{0, 0}}), 1U);
-  EXPECT_EQ(reason_of(bake.desk, 0), "basis flat: object 'object0': no faces");
-  EXPECT_TRUE(is_delivered(bake.desk, 1));
+  EXPECT_EQ(reason_of(bake.collector, 0), "basis flat: object 'object0': no faces");
+  EXPECT_TRUE(is_delivered(bake.collector, 1));
 }
 
 TEST(Dispatcher, DropsTheOtherBasesOfWhatWasGivenUp) {
@@ -167,7 +168,7 @@ TEST(Dispatcher, SaysWhatHelps) {
         failure(kind, kind == Kind::killed ? "Blender was killed; try fewer --jobs" : "what");
     bake.blender.fault = [&how](const Baked&) { return how; };
     (void)bake.run();
-    const std::string reason = reason_of(bake.desk, 0);
+    const std::string reason = reason_of(bake.collector, 0);
     EXPECT_NE(reason.find(how.message), std::string::npos) << reason;
     EXPECT_NE(reason.find(remedy), std::string::npos) << reason;
     EXPECT_EQ(reason.find('\n'), std::string::npos);
@@ -178,7 +179,7 @@ TEST(Dispatcher, EndsWhereNothingWorks) {
   Bake bake(7);
   bake.blender.fault = [](const Baked&) { return failure(Kind::crashed, "signal 11"); };
   (void)bake.run();
-  for (std::size_t t = 0; t < 7; ++t) EXPECT_FALSE(reason_of(bake.desk, t).empty());
+  for (std::size_t t = 0; t < 7; ++t) EXPECT_FALSE(reason_of(bake.collector, t).empty());
   EXPECT_LE(bake.blender.launches.size(), 7U * 4 * 3);
   EXPECT_TRUE(bake.scene.files().empty());
 }
@@ -190,12 +191,12 @@ TEST(Dispatcher, AHangBeforeTheBakeIsNotSplit) {
     bake.blender.fault = [&](const Baked&) { return left-- > 0 ? std::optional(hung(phase)) : std::nullopt; };
     const BakeTimings timings = bake.run();
     EXPECT_EQ(timings.launches, 2);
-    for (std::size_t t = 0; t < 5; ++t) EXPECT_TRUE(is_delivered(bake.desk, t));
+    for (std::size_t t = 0; t < 5; ++t) EXPECT_TRUE(is_delivered(bake.collector, t));
   }
   Bake never(5);
   never.blender.fault = [](const Baked&) { return hung("load"); };
   EXPECT_EQ(never.run().launches, 2);
-  for (std::size_t t = 0; t < 5; ++t) EXPECT_FALSE(reason_of(never.desk, t).empty());
+  for (std::size_t t = 0; t < 5; ++t) EXPECT_FALSE(reason_of(never.collector, t).empty());
 }
 
 TEST(Dispatcher, WhereEveryLaunchHangsItIsTheScene) {
@@ -206,9 +207,10 @@ TEST(Dispatcher, WhereEveryLaunchHangsItIsTheScene) {
     bake.blender.fault = [](const Baked&) { return hung("bake"); };
     EXPECT_EQ(bake.run().launches, 5);
     for (std::size_t t = 0; t < 9; ++t) {
-      EXPECT_NE(reason_of(bake.desk, t).find("5 launches hung"), std::string::npos)
-          << reason_of(bake.desk, t);
-      EXPECT_NE(reason_of(bake.desk, t).find("--timeout"), std::string::npos) << reason_of(bake.desk, t);
+      EXPECT_NE(reason_of(bake.collector, t).find("5 launches hung"), std::string::npos)
+          << reason_of(bake.collector, t);
+      EXPECT_NE(reason_of(bake.collector, t).find("--timeout"), std::string::npos)
+          << reason_of(bake.collector, t);
     }
   }
 }
@@ -219,7 +221,7 @@ TEST(Dispatcher, FindsWhatHangsAmongWhatDoesNot) {
     return baked.contains({3, 1}) || baked.contains({12, 0}) ? std::optional(hung("bake")) : std::nullopt;
   };
   (void)bake.run();
-  for (std::size_t t = 0; t < 16; ++t) EXPECT_EQ(is_delivered(bake.desk, t), t != 3 && t != 12);
+  for (std::size_t t = 0; t < 16; ++t) EXPECT_EQ(is_delivered(bake.collector, t), t != 3 && t != 12);
 }
 
 TEST(Dispatcher, AFullDiskEndsTheRunAtOnce) {
@@ -244,15 +246,16 @@ TEST(Dispatcher, WhatTookTooLongIsSplitButNotTriedAgain) {
   bake.blender.fault = offender(1, 1, failure(Kind::outlasted, "longer than 60 s"));
   (void)bake.run();
   EXPECT_EQ(launches_of(bake.blender, {{1, 1}}), 1U);
-  EXPECT_TRUE(is_delivered(bake.desk, 0));
+  EXPECT_TRUE(is_delivered(bake.collector, 0));
 }
 
 TEST(Dispatcher, TakesShortPicturesForAFailedLaunch) {
   Bake bake(2);
   bake.blender.short_pictures = true;
   const BakeTimings timings = bake.run();
-  EXPECT_NE(reason_of(bake.desk, 0).find("is the disk full?"), std::string::npos) << reason_of(bake.desk, 0);
-  EXPECT_FALSE(is_delivered(bake.desk, 1));
+  EXPECT_NE(reason_of(bake.collector, 0).find("is the disk full?"), std::string::npos)
+      << reason_of(bake.collector, 0);
+  EXPECT_FALSE(is_delivered(bake.collector, 1));
   EXPECT_EQ(timings.failed_launches, timings.launches);
 }
 
@@ -297,7 +300,7 @@ TEST(Dispatcher, SharesWorkAmongJobs) {
   Bake bake(20, settings);
   bake.blender.fault = offender(11, 2, failure(Kind::crashed, "signal 11"));
   (void)bake.run();
-  for (std::size_t t = 0; t < 20; ++t) EXPECT_EQ(is_delivered(bake.desk, t), t != 11);
+  for (std::size_t t = 0; t < 20; ++t) EXPECT_EQ(is_delivered(bake.collector, t), t != 11);
 }
 
 TEST(ChooseJobs, IsBoundedByTheLaunches) {

@@ -13,22 +13,22 @@
 namespace rnmbake {
 namespace {
 
-/// Pictures for every tile of a dispatch: `value` for the first basis, twice that for the second, ...
-std::vector<FloatImage> pictures_of(const Plan& plan, const DispatchLayout& layout, float value = 0.5F) {
+/// Textures for every tile of a dispatch: `value` for the first basis, twice that for the second, ...
+std::vector<FloatImage> pictures_of(const Plan& plan, const BatchLayout& layout, float value = 0.5F) {
   std::vector<FloatImage> pictures;
-  for (const std::size_t tile : layout.tiles) {
-    FloatImage picture(plan.tiles[tile].size.width, plan.tiles[tile].size.height, 4);
-    std::fill(picture.data().begin(), picture.data().end(), value * float(plan.tiles[tile].sheet.basis + 1));
+  for (const std::size_t rect : layout.rects) {
+    FloatImage picture(plan.rects[rect].size.width, plan.rects[rect].size.height, 4);
+    std::fill(picture.data().begin(), picture.data().end(), value * float(plan.rects[rect].pass.basis + 1));
     for (std::size_t i = 3; i < picture.data().size(); i += 4) picture.data()[i] = 1;
     pictures.push_back(std::move(picture));
   }
   return pictures;
 }
 
-DispatchLayout layout_of(const Plan& plan, const Dispatch& dispatch) {
-  DispatchLayout layout;
-  for (const std::size_t unit : dispatch.units)
-    layout.tiles.insert(layout.tiles.end(), plan.units[unit].tiles.begin(), plan.units[unit].tiles.end());
+BatchLayout layout_of(const Plan& plan, const Batch& batch) {
+  BatchLayout layout;
+  for (const std::size_t task : batch.tasks)
+    layout.rects.insert(layout.rects.end(), plan.tasks[task].rects.begin(), plan.tasks[task].rects.end());
   return layout;
 }
 
@@ -36,18 +36,18 @@ struct Desk {
   explicit Desk(const BakeSettings& settings = {}, std::size_t objects = 1)
       : scene(objects, settings),
         context(scene.context()),
-        desk(context, scene.settings().output, scene.notes()) {}
+        collector(context, scene.settings().output, scene.notes()) {}
 
-  void take(const std::vector<std::size_t>& units, float value = 0.5F) {
-    const Dispatch dispatch{units};
-    const DispatchLayout layout = layout_of(scene.plan(), dispatch);
-    desk.take(dispatch, layout, pictures_of(scene.plan(), layout, value));
+  void take(const std::vector<std::size_t>& tasks, float value = 0.5F) {
+    const Batch batch{tasks};
+    const BatchLayout layout = layout_of(scene.plan(), batch);
+    collector.take(batch, layout, pictures_of(scene.plan(), layout, value));
   }
   [[nodiscard]] LayeredImage read(const std::string& name) const { return read_image(scene.folder() / name); }
 
   Invented scene;
   BakeContext context;
-  DeliveryDesk desk;
+  BakeCollector collector;
 };
 
 /// Nothing larger than `bytes` can be written in its scope: what a full disk does, without one.
@@ -70,21 +70,21 @@ class FileSizeLimit {
   void (*handler_)(int);
 };
 
-TEST(DeliveryDesk, WritesATargetWhenItsLastUnitArrives) {
+TEST(BakeCollector, WritesATargetWhenItsLastUnitArrives) {
   Desk d({}, 2);
   d.take({0, 1, 2, 4});
   EXPECT_TRUE(d.scene.files().empty());
-  EXPECT_FALSE(d.desk.is_settled(0));
+  EXPECT_FALSE(d.collector.is_settled(0));
   d.take({3});
-  EXPECT_TRUE(d.desk.is_settled(0));
-  EXPECT_FALSE(d.desk.is_settled(1));
+  EXPECT_TRUE(d.collector.is_settled(0));
+  EXPECT_FALSE(d.collector.is_settled(1));
   EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object0.exr"});
-  const auto& delivered = std::get<Delivered>(*d.desk.deliveries()[0]);
+  const auto& delivered = std::get<Delivered>(*d.collector.deliveries()[0]);
   EXPECT_EQ(delivered.files, std::vector<std::string>{"object0.exr"});
   EXPECT_EQ(delivered.counts.covered_texels, 64U);
 }
 
-TEST(DeliveryDesk, LayersHoldAllBasesAndCoverage) {
+TEST(BakeCollector, LayersHoldAllBasesAndCoverage) {
   Desk d;
   d.take({0, 1, 2, 3}, 0.25F);
   const LayeredImage image = d.read("object0.exr");
@@ -97,7 +97,7 @@ TEST(DeliveryDesk, LayersHoldAllBasesAndCoverage) {
   EXPECT_EQ(metadata.bases.size(), 4U);
 }
 
-TEST(DeliveryDesk, FilesHoldOneLayerEachAndSayWhich) {
+TEST(BakeCollector, FilesHoldOneLayerEachAndSayWhich) {
   BakeSettings settings;
   settings.output.layout = OutputSettings::Layout::files;
   Desk d(settings);
@@ -105,7 +105,7 @@ TEST(DeliveryDesk, FilesHoldOneLayerEachAndSayWhich) {
   EXPECT_EQ(d.scene.files(),
             (std::vector<std::string>{"object0.coverage.exr", "object0.flat.exr", "object0.rnm0.exr",
                                       "object0.rnm1.exr", "object0.rnm2.exr"}));
-  auto listed = std::get<Delivered>(*d.desk.deliveries()[0]).files;
+  auto listed = std::get<Delivered>(*d.collector.deliveries()[0]).files;
   std::sort(listed.begin(), listed.end());
   EXPECT_EQ(listed, d.scene.files());
   for (const BasisDirection& basis : d.context.bases) {
@@ -121,22 +121,22 @@ TEST(DeliveryDesk, FilesHoldOneLayerEachAndSayWhich) {
   }
 }
 
-TEST(DeliveryDesk, SaysInTheHeaderThatTexelsWereRepaired) {
+TEST(BakeCollector, SaysInTheHeaderThatTexelsWereRepaired) {
   for (const bool repair : {false, true}) {
     BakeSettings settings;
     settings.output.repair = repair;
     Desk d(settings);
-    const Dispatch dispatch{{0, 1, 2, 3}};
-    const DispatchLayout layout = layout_of(d.scene.plan(), dispatch);
+    const Batch batch{{0, 1, 2, 3}};
+    const BatchLayout layout = layout_of(d.scene.plan(), batch);
     auto pictures = pictures_of(d.scene.plan(), layout);
     pictures[2].texel(4, 4)[0] = std::numeric_limits<float>::quiet_NaN();
-    d.desk.take(dispatch, layout, std::move(pictures));
+    d.collector.take(batch, layout, std::move(pictures));
     EXPECT_EQ(read_metadata(d.read("object0.exr"), "object0.exr").repaired, repair);
-    EXPECT_EQ(std::get<Delivered>(*d.desk.deliveries()[0]).counts.repaired, repair ? 1U : 0U);
+    EXPECT_EQ(std::get<Delivered>(*d.collector.deliveries()[0]).counts.repaired, repair ? 1U : 0U);
   }
 }
 
-TEST(DeliveryDesk, GivesUpAMapWithoutANumberAndLosesNothingElse) {
+TEST(BakeCollector, GivesUpAMapWithoutANumberAndLosesNothingElse) {
   for (const bool repair : {false, true}) {
     BakeSettings settings;
     settings.output.repair = repair;
@@ -144,43 +144,43 @@ TEST(DeliveryDesk, GivesUpAMapWithoutANumberAndLosesNothingElse) {
     d.take({0, 1, 2, 3}, std::numeric_limits<float>::quiet_NaN());
     d.take({4, 5, 6, 7});
     EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object1.exr"});
-    EXPECT_NE(std::get<NotDelivered>(*d.desk.deliveries()[0]).reason.find("NaN"), std::string::npos);
-    EXPECT_TRUE(std::holds_alternative<Delivered>(*d.desk.deliveries()[1]));
-    EXPECT_EQ(count_failed(d.desk.deliveries()), 1U);
+    EXPECT_NE(std::get<NotDelivered>(*d.collector.deliveries()[0]).reason.find("NaN"), std::string::npos);
+    EXPECT_TRUE(std::holds_alternative<Delivered>(*d.collector.deliveries()[1]));
+    EXPECT_EQ(count_failed(d.collector.deliveries()), 1U);
   }
 }
 
-TEST(DeliveryDesk, DoesNotWriteWhatWasGivenUp) {
+TEST(BakeCollector, DoesNotWriteWhatWasGivenUp) {
   Desk d({}, 2);
   d.take({0, 1});
-  d.desk.give_up(0, "the reason");
+  d.collector.give_up(0, "the reason");
   d.take({2, 3, 4, 5, 6, 7});
   EXPECT_EQ(d.scene.files(), std::vector<std::string>{"object1.exr"});
-  EXPECT_EQ(reason_of(d.desk, 0), "the reason");
+  EXPECT_EQ(reason_of(d.collector, 0), "the reason");
 }
 
-TEST(DeliveryDesk, KeepsTheFirstReasonAndWhatWasDelivered) {
+TEST(BakeCollector, KeepsTheFirstReasonAndWhatWasDelivered) {
   Desk d({}, 2);
-  d.desk.give_up(0, "first");
-  d.desk.give_up(0, "second");
-  EXPECT_EQ(reason_of(d.desk, 0), "first");
+  d.collector.give_up(0, "first");
+  d.collector.give_up(0, "second");
+  EXPECT_EQ(reason_of(d.collector, 0), "first");
   d.take({4, 5, 6, 7});
-  d.desk.give_up(1, "too late");
-  EXPECT_TRUE(is_delivered(d.desk, 1));
+  d.collector.give_up(1, "too late");
+  EXPECT_TRUE(is_delivered(d.collector, 1));
 }
 
-TEST(DeliveryDesk, GivesUpATargetWithoutATexelAndGoesOn) {
+TEST(BakeCollector, GivesUpATargetWithoutATexelAndGoesOn) {
   Desk d({}, 2);
-  const Dispatch dispatch{{0, 1, 2, 3, 4, 5, 6, 7}};
-  const DispatchLayout layout = layout_of(d.scene.plan(), dispatch);
+  const Batch batch{{0, 1, 2, 3, 4, 5, 6, 7}};
+  const BatchLayout layout = layout_of(d.scene.plan(), batch);
   auto pictures = pictures_of(d.scene.plan(), layout);
   for (std::size_t i = 0; i < 4; ++i) std::fill(pictures[i].data().begin(), pictures[i].data().end(), 0.0F);
-  d.desk.take(dispatch, layout, std::move(pictures));
-  EXPECT_NE(reason_of(d.desk, 0).find("no texel of 'object0'"), std::string::npos);
-  EXPECT_TRUE(is_delivered(d.desk, 1));
+  d.collector.take(batch, layout, std::move(pictures));
+  EXPECT_NE(reason_of(d.collector, 0).find("no texel of 'object0'"), std::string::npos);
+  EXPECT_TRUE(is_delivered(d.collector, 1));
 }
 
-TEST(DeliveryDesk, PassesOnThatTheDiskIsFullAndLeavesNothingBehind) {
+TEST(BakeCollector, PassesOnThatTheDiskIsFullAndLeavesNothingBehind) {
   Desk d;
   const FileSizeLimit limit(64);
   try {

@@ -21,7 +21,7 @@ namespace {
 class TwoObjects : public testing::Test {
  protected:
   TwoObjects() : config_(resolve({}, {}, {})) {
-    add_object(exported_.exchange, "wall", {level(1, 2)}, Vec3(0.5F));
+    add_object(exported_.diffuse_scene, "wall", {level(1, 2)}, Vec3(0.5F));
     add_target(exported_, 1, 8);
     config_.globals.output.dir = folder_.path();
     config_.globals.scene.file = "scene.blend";
@@ -36,8 +36,8 @@ class TwoObjects : public testing::Test {
     if (objects < 2) list.skipped.push_back({"wall", "not selected"});
     Workspace workspace(config_, blender_);
     const EarlierLightmaps earlier =
-        find_earlier(workspace, {kind_, bases_}, exported_.exchange.survey, list.targets);
-    const TraceScene scene(exported_.exchange, plan_.blender_version);
+        find_earlier(workspace, {kind_, bases_}, exported_.diffuse_scene.survey, list.targets);
+    const TraceScene scene(exported_.diffuse_scene, plan_.blender_version);
     (void)run_reference({scene, list, bases_, earlier}, config_.globals, plan_);
   }
 
@@ -65,7 +65,7 @@ class TwoObjects : public testing::Test {
   TempFolder folder_;
   ResolvedConfig config_;
   FakeBlender blender_;
-  ExportedScene exported_ = floor_under_sky();
+  ExportResult exported_ = floor_under_sky();
   ReferencePlan plan_;
   std::vector<BasisDirection> bases_ = flat_and_rnm();
   std::string kind_ = "reference";
@@ -96,8 +96,8 @@ TEST_F(TwoObjects, WhatNoLongerFitsGoes) {
   trace(1);
   EXPECT_EQ(keys(), floor_) << "without its file";
   trace(2);
-  Mesh& mesh =
-      exported_.exchange.survey.meshes[static_cast<std::size_t>(exported_.exchange.survey.objects[1].mesh)];
+  Mesh& mesh = exported_.diffuse_scene.survey
+                   .meshes[static_cast<std::size_t>(exported_.diffuse_scene.survey.objects[1].mesh)];
   std::swap(mesh.loop_vertex[0], mesh.loop_vertex[1]);
   trace(1);
   EXPECT_EQ(keys(), floor_) << "with other faces";
@@ -106,7 +106,7 @@ TEST_F(TwoObjects, WhatNoLongerFitsGoes) {
   trace(1);
   EXPECT_EQ(keys(), floor_) << "with other UVs";
   trace(2);
-  exported_.exchange.survey.objects[1].key = "fence";
+  exported_.diffuse_scene.survey.objects[1].key = "fence";
   exported_.list.targets[1].key = "fence";
   trace(1);
   EXPECT_EQ(keys(), floor_) << "without its object";
@@ -114,7 +114,7 @@ TEST_F(TwoObjects, WhatNoLongerFitsGoes) {
 
 TEST_F(TwoObjects, MovedVerticesKeepIt) {
   trace(2);
-  exported_.exchange.survey.meshes.back().positions[0].z += 0.5F;
+  exported_.diffuse_scene.survey.meshes.back().positions[0].z += 0.5F;
   trace(1);
   EXPECT_EQ(keys(), both_);
 }
@@ -141,7 +141,7 @@ TEST_F(TwoObjects, WhatIsNoManifestIsReplaced) {
 }
 
 TEST_F(TwoObjects, AnEarlierNameIsNotGivenToAnotherFile) {
-  exported_.list.targets[1].key = exported_.exchange.survey.objects[1].key = "FLOOR";
+  exported_.list.targets[1].key = exported_.diffuse_scene.survey.objects[1].key = "FLOOR";
   std::swap(exported_.list.targets[0], exported_.list.targets[1]);
   trace(1);  // FLOOR.exr
   std::swap(exported_.list.targets[0], exported_.list.targets[1]);

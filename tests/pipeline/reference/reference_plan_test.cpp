@@ -17,10 +17,11 @@ using Texts = std::map<std::string, std::string>;
 using Names = std::vector<std::string>;
 
 ResolvedConfig with(const Texts& flags) {
-  std::vector<Given> given;
+  std::vector<SettingOverride> given;
   for (const auto& [key, text] : flags) {
     const Setting& setting = *find_setting(key);
-    Given one{&setting, parse_value(setting, text, "flag"), SettingSource::flag, "flag " + setting.flag()};
+    SettingOverride one{&setting, parse_value(setting, text, "flag"), SettingSource::flag,
+                        "flag " + setting.flag()};
     given.push_back(std::move(one));
   }
   return resolve({}, {}, given);

@@ -1,9 +1,9 @@
 #include "pipeline/reference/reference_run.h"
 
 #include "base/files.h"
+#include "blender/blender_session.h"
 #include "image/layered_exr.h"
 #include "pipeline/traced_scene.h"
-#include "blender/blender_session.h"
 #include "process/stop.h"
 
 #include <cmath>
@@ -21,14 +21,14 @@ namespace {
 /// References of one scene, in a folder of their own.
 class Tracing {
  public:
-  explicit Tracing(ExportedScene scene) : exported(std::move(scene)) {
+  explicit Tracing(ExportResult scene) : exported(std::move(scene)) {
     settings.output.dir = folder_.path();
     settings.output.depth = OutputSettings::Depth::full;
     plan.blender_version = "4.3.2";
   }
 
   ReferenceOutcome run() {
-    const TraceScene scene(exported.exchange, plan.blender_version);
+    const TraceScene scene(exported.diffuse_scene, plan.blender_version);
     return run_reference({scene, exported.list, bases_}, settings, plan);
   }
 
@@ -38,7 +38,7 @@ class Tracing {
     return nlohmann::json::parse(read_text(file("manifest.json")));
   }
 
-  ExportedScene exported;
+  ExportResult exported;
   BakeSettings settings;
   ReferencePlan plan;
 
@@ -83,7 +83,7 @@ TEST(ReferenceRun, TheHeaderAndTheManifestSayWhatItIs) {
   Tracing tracing(floor_under_sky());
   tracing.plan.flat_normal_map = true;
   tracing.plan.faults.bump_shadowing = true;
-  tracing.exported.exchange.outside = {{"object 'floor'", {"glossy"}}, {"world", {"volume"}}};
+  tracing.exported.diffuse_scene.outside = {{"object 'floor'", {"glossy"}}, {"world", {"volume"}}};
   (void)tracing.run();
   const LightmapMetadata metadata = read_metadata(tracing.read("floor.exr"), "floor.exr");
   EXPECT_EQ(metadata.recipe, "reference");
@@ -103,8 +103,8 @@ TEST(ReferenceRun, TheHeaderAndTheManifestSayWhatItIs) {
 }
 
 TEST(ReferenceRun, WhatTheRecipeBakesBlackIsDeliveredBlack) {
-  ExportedScene scene = floor_under_sky();
-  scene.exchange.looks[0].albedo = Vec3(0);
+  ExportResult scene = floor_under_sky();
+  scene.diffuse_scene.materials[0].albedo = Vec3(0);
   Tracing tracing(std::move(scene));
   tracing.plan.flat_normal_map = true;
   tracing.plan.faults.no_diffuse = true;
@@ -117,12 +117,12 @@ TEST(ReferenceRun, WhatTheRecipeBakesBlackIsDeliveredBlack) {
 
 // A sun from +y: with Y up rnm1 (y > 0) sees it and rnm2 hardly; with Y down it is the other way round.
 TEST(ReferenceRun, GreenDownMirrorsTheBasesAndTheHarmonics) {
-  ExportedScene scene = floor_under_sky(0);
+  ExportResult scene = floor_under_sky(0);
   LightInfo sun = light("SUN", 1, {{"angle", 0.0}});
   const float s = std::sqrt(0.5F);
   sun.to_world = Mat44(1, 0, 0, 0, 0, s, -s, 0, 0, s, s, 0, 0, 0, 0, 1);  // +z of the lamp looks to (0, s, s)
-  scene.exchange.survey.lights.push_back(sun);
-  add_object(scene.exchange, "down", {level(1, 0, true, Vec3(5, 0, 0))}, Vec3(0.5F));
+  scene.diffuse_scene.survey.lights.push_back(sun);
+  add_object(scene.diffuse_scene, "down", {level(1, 0, true, Vec3(5, 0, 0))}, Vec3(0.5F));
   add_target(scene, 1, 8);
   scene.list.targets[1].flip_green = true;
   Tracing tracing(std::move(scene));
@@ -143,9 +143,9 @@ TEST(ReferenceRun, GreenDownMirrorsTheBasesAndTheHarmonics) {
 }
 
 TEST(ReferenceRun, AnObjectWithoutATexelFailsAlone) {
-  ExportedScene scene = floor_under_sky();
-  add_object(scene.exchange, "speck", {level(1, 1)}, Vec3(0.5F));
-  for (Vec2& uv : scene.exchange.survey.meshes[1].uv_layers[0].uv) uv *= 0.001F;
+  ExportResult scene = floor_under_sky();
+  add_object(scene.diffuse_scene, "speck", {level(1, 1)}, Vec3(0.5F));
+  for (Vec2& uv : scene.diffuse_scene.survey.meshes[1].uv_layers[0].uv) uv *= 0.001F;
   add_target(scene, 1, 8);
   Tracing tracing(std::move(scene));
   const ReferenceOutcome outcome = tracing.run();

@@ -21,8 +21,8 @@ constexpr const char* version = "4.3.2";
 /// A scene, its references as lightmaps, and its camera's view lit by these.
 class Studio {
  public:
-  explicit Studio(ExportedScene scene) : exported(std::move(scene)), traced_(exported.exchange, version) {
-    if (!exported.exchange.camera) exported.exchange.camera = from_above();
+  explicit Studio(ExportResult scene) : exported(std::move(scene)), traced_(exported.diffuse_scene, version) {
+    if (!exported.diffuse_scene.camera) exported.diffuse_scene.camera = from_above();
   }
 
   static Camera from_above() {
@@ -45,7 +45,7 @@ class Studio {
     ASSERT_EQ(count_failed(outcome.deliveries), 0U);
   }
 
-  [[nodiscard]] SceneLightmaps lightmaps() const { return {folder.path(), exported.exchange}; }
+  [[nodiscard]] SceneLightmaps lightmaps() const { return {folder.path(), exported.diffuse_scene}; }
 
   [[nodiscard]] View view(const std::string& lighting, int samples = 4) const {
     RenderOptions options;
@@ -57,7 +57,7 @@ class Studio {
     return render_view(traced_, &maps, how, options);
   }
 
-  ExportedScene exported;
+  ExportResult exported;
   TempFolder folder;
 
  private:
@@ -85,12 +85,12 @@ void expect_everywhere(const FloatImage& picture, double value) {
 }
 
 /// A floor whose normal map is the same vector everywhere, under one sun.
-ExportedScene tilted_floor(const Vec3& normal, double sun_angle, bool mirrored_in_x = false) {
-  ExportedScene exported = floor_under_sky(0);
-  Exchange& scene = exported.exchange;
+ExportResult tilted_floor(const Vec3& normal, double sun_angle, bool mirrored_in_x = false) {
+  ExportResult exported = floor_under_sky(0);
+  DiffuseScene& scene = exported.diffuse_scene;
   scene.pictures.push_back({1, 1, {(normal + Vec3(1)) * 0.5F}, "normals"});
   scene.normal_maps.push_back({0, "Lightmap", 1});
-  scene.looks[0].normal_map = 0;
+  scene.materials[0].normal_map = 0;
   LightInfo sun = light("SUN", 1, {{"angle", 0}});
   sun.to_world.setAxisAngle(Vec3d(0, 1, 0), sun_angle);  // it shines along -z of its own axes
   scene.survey.lights.push_back(sun);
@@ -149,15 +149,15 @@ TEST(RenderView, AMirroredObjectHasAMirroredTangent) {
 }
 
 TEST(RenderView, AHalfStrongNormalMapBendsLess) {
-  ExportedScene scene = tilted_floor({0.6F, 0, 0.8F}, sun_angle);
-  scene.exchange.normal_maps[0].strength = 0.5F;
+  ExportResult scene = tilted_floor({0.6F, 0, 0.8F}, sun_angle);
+  scene.diffuse_scene.normal_maps[0].strength = 0.5F;
   const Vec3 bent = Vec3(0.3F, 0, 0.9F).normalized();
   expect_everywhere(Studio(std::move(scene)).view("truth").beauty, 0.5 * double(bent.dot(to_sun)) / pi);
 }
 
 TEST(RenderView, EmissionIsAddedToEveryKindOfLight) {
-  ExportedScene scene = floor_under_sky(0);
-  scene.exchange.looks[0].emission = Vec3(3);
+  ExportResult scene = floor_under_sky(0);
+  scene.diffuse_scene.materials[0].emission = Vec3(3);
   Studio studio(std::move(scene));
   studio.bake();
   for (const char* lighting : {"truth", "single", "squared"})
@@ -166,9 +166,9 @@ TEST(RenderView, EmissionIsAddedToEveryKindOfLight) {
 }
 
 TEST(RenderView, WhatHasNoLightmapIsTracedAndNamed) {
-  ExportedScene scene = tilted_floor({0.6F, 0, 0.8F}, sun_angle);
-  add_object(scene.exchange, "table", {level(0.2F, 0.1F)}, Vec3(0.25F));
-  for (SceneObject& object : scene.exchange.survey.objects) object.visible_to_camera = true;
+  ExportResult scene = tilted_floor({0.6F, 0, 0.8F}, sun_angle);
+  add_object(scene.diffuse_scene, "table", {level(0.2F, 0.1F)}, Vec3(0.25F));
+  for (SceneObject& object : scene.diffuse_scene.survey.objects) object.visible_to_camera = true;
   Studio studio(std::move(scene));
   studio.bake();
   EXPECT_EQ(studio.lightmaps().bare(), std::vector<std::string>{"table"});
@@ -178,7 +178,7 @@ TEST(RenderView, WhatHasNoLightmapIsTracedAndNamed) {
 }
 
 /// The code of the Error that the lightmaps give on a scene; ok: none.
-ExitCode refusal(const std::filesystem::path& lightmaps, const Exchange& scene) {
+ExitCode refusal(const std::filesystem::path& lightmaps, const DiffuseScene& scene) {
   try {
     (void)SceneLightmaps(lightmaps, scene);
   } catch (const Error& error) {
@@ -190,33 +190,33 @@ ExitCode refusal(const std::filesystem::path& lightmaps, const Exchange& scene) 
 TEST(RenderView, LightmapsOfAnotherSceneAreRefused) {
   Studio studio(tilted_floor({0, 0, 1}, 0));
   studio.bake();
-  EXPECT_EQ(refusal(studio.folder.path(), studio.exported.exchange), ExitCode::ok);
+  EXPECT_EQ(refusal(studio.folder.path(), studio.exported.diffuse_scene), ExitCode::ok);
 
-  Exchange renamed = studio.exported.exchange;
+  DiffuseScene renamed = studio.exported.diffuse_scene;
   renamed.survey.objects[0].key = "ceiling";
   EXPECT_EQ(refusal(studio.folder.path(), renamed), ExitCode::invalid_input);
 
-  Exchange other_layer = studio.exported.exchange;
+  DiffuseScene other_layer = studio.exported.diffuse_scene;
   other_layer.survey.meshes[0].uv_layers[0].name = "UVMap";
   EXPECT_EQ(refusal(studio.folder.path(), other_layer), ExitCode::invalid_input);
 }
 
 TEST(RenderView, LightmapsWhoseChartsLieElsewhereAreRefused) {
-  ExportedScene scene = tilted_floor({0, 0, 1}, 0);
-  auto& uv = scene.exchange.survey.meshes[0].uv_layers[0].uv;
+  ExportResult scene = tilted_floor({0, 0, 1}, 0);
+  auto& uv = scene.diffuse_scene.survey.meshes[0].uv_layers[0].uv;
   for (Vec2& one : uv) one *= 0.4F;
   scene.list.targets[0].uv = std::make_shared<const std::vector<Vec2>>(uv);
   Studio studio(std::move(scene));
   studio.bake();
-  EXPECT_EQ(refusal(studio.folder.path(), studio.exported.exchange), ExitCode::ok);
-  Exchange moved = studio.exported.exchange;
+  EXPECT_EQ(refusal(studio.folder.path(), studio.exported.diffuse_scene), ExitCode::ok);
+  DiffuseScene moved = studio.exported.diffuse_scene;
   for (Vec2& one : moved.survey.meshes[0].uv_layers[0].uv) one += Vec2(0.55F);
   EXPECT_EQ(refusal(studio.folder.path(), moved), ExitCode::invalid_input);
 }
 
 TEST(RenderView, WithoutACameraThereIsNoView) {
-  const ExportedScene scene = floor_under_sky();
-  EXPECT_THROW((void)camera_of(scene.exchange), Error);
+  const ExportResult scene = floor_under_sky();
+  EXPECT_THROW((void)camera_of(scene.diffuse_scene), Error);
 }
 
 }  // namespace

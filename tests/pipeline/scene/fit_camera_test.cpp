@@ -20,14 +20,14 @@ Vec2 in_picture(const Camera& camera, const Vec3d& point) {
 }
 
 TEST(FitCamera, FramesAllThatIsBakedAndNoMore) {
-  ExportedScene scene = floor_under_sky();
-  add_object(scene.exchange, "far away", {level(1000, 5)}, Vec3(0.5F));  // not baked
+  ExportResult scene = floor_under_sky();
+  add_object(scene.diffuse_scene, "far away", {level(1000, 5)}, Vec3(0.5F));  // not baked
   for (const auto& size : {std::pair(960, 540), std::pair(200, 400)}) {
-    const Camera camera = fit_camera(scene.exchange.survey, scene.list.targets, size);
+    const Camera camera = fit_camera(scene.diffuse_scene.survey, scene.list.targets, size);
     EXPECT_NEAR(pixel_shape(camera), 1, 1e-9);
     float most = 0;
-    const SceneObject& floor = scene.exchange.survey.objects[0];
-    for (const Vec3& position : scene.exchange.survey.mesh_of(floor).positions) {
+    const SceneObject& floor = scene.diffuse_scene.survey.objects[0];
+    for (const Vec3& position : scene.diffuse_scene.survey.mesh_of(floor).positions) {
       const Vec2 at = in_picture(camera, Vec3d(position));
       most = std::max({most, std::abs(at.x), std::abs(at.y)});
     }
@@ -38,13 +38,13 @@ TEST(FitCamera, FramesAllThatIsBakedAndNoMore) {
 }
 
 TEST(FitCamera, GivesWayToTheScenesOwn) {
-  ExportedScene scene = floor_under_sky();
-  scene.exchange.camera = Camera{};
-  scene.exchange.camera->name = "own";
+  ExportResult scene = floor_under_sky();
+  scene.diffuse_scene.camera = Camera{};
+  scene.diffuse_scene.camera->name = "own";
   give_camera(scene);
-  EXPECT_EQ(scene.exchange.camera->name, "own");
+  EXPECT_EQ(scene.diffuse_scene.camera->name, "own");
   give_camera(scene, true);
-  EXPECT_EQ(scene.exchange.camera->name, "fit");
+  EXPECT_EQ(scene.diffuse_scene.camera->name, "fit");
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ Mesh square_with_line() {
   return mesh;
 }
 
-Survey survey_of(std::vector<Mesh> meshes) {
-  Survey survey;
+SceneSurvey survey_of(std::vector<Mesh> meshes) {
+  SceneSurvey survey;
   survey.scene_file = "a.blend";
   survey.world = "constant";
   survey.world_strength = 1;
@@ -42,7 +42,7 @@ Mesh with_layer(Mesh mesh, const std::vector<Vec2>& uv) {
   return mesh;
 }
 
-TargetList targets_of(const Survey& survey, const std::vector<Given>& flags = {}) {
+TargetList targets_of(const SceneSurvey& survey, const std::vector<SettingOverride>& flags = {}) {
   return make_targets(resolve({}, {}, flags), survey);
 }
 
@@ -107,7 +107,7 @@ TEST(MakeTargets, KnowsTheSizeThatWasAskedFor) {
 }
 
 TEST(MakeTargets, UnwrapsInstancesOnceAndKeepsTheMargin) {
-  Survey survey = survey_of({square(), square()});
+  SceneSurvey survey = survey_of({square(), square()});
   survey.objects[1].mesh = 0;
   survey.objects[1].to_world.setTranslation(Vec3d(5, 0, 0));
   const TargetList list = targets_of(survey);
@@ -120,7 +120,7 @@ TEST(MakeTargets, UnwrapsInstancesOnceAndKeepsTheMargin) {
 }
 
 TEST(CheckLight, RefusesADarkSceneUnlessAskedFor) {
-  Survey survey = survey_of({square()});
+  SceneSurvey survey = survey_of({square()});
   survey.world_strength = 0;
   try {
     check_light(resolve({}, {}, {}), survey);
@@ -144,7 +144,7 @@ LightInfo lamp(double energy, const std::array<double, 3>& color,
 }
 
 TEST(MayBeLit, IsFalseOnlyWhereNothingCanGiveLight) {
-  Survey dark;
+  SceneSurvey dark;
   dark.world = "none";
   EXPECT_FALSE(may_be_lit(dark));
   dark.materials["wall"] = {"wall", false, false, {"glossy"}};
@@ -153,7 +153,7 @@ TEST(MayBeLit, IsFalseOnlyWhereNothingCanGiveLight) {
   dark.lights.push_back(lamp(1, {1, 1, 1}, {"portal"}));
   EXPECT_FALSE(may_be_lit(dark));
 
-  Survey lit = dark;
+  SceneSurvey lit = dark;
   lit.lights.push_back(lamp(1, {1, 0, 0}));
   EXPECT_TRUE(may_be_lit(lit));
   lit = dark;

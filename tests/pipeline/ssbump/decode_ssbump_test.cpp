@@ -136,7 +136,7 @@ Fit fit_to_shadows(const HeightField& field, SsbumpPicture map, SsbumpAlpha alph
 
 TEST_F(DecodeSsbump, GetsSharperShadowsFromTheFourthDirection) {
   constexpr int kSide = 64;
-  HeightField field{FloatImage(kSide, kSide, 1), Beyond::wrap, Beyond::wrap};
+  HeightField field{FloatImage(kSide, kSide, 1), WrapMode::wrap, WrapMode::wrap};
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x)
       field.heights.texel(x, y)[0] =
@@ -173,7 +173,7 @@ TEST_F(DecodeSsbump, RefusesWhatContradictsTheFile) {
   SsbumpOutput output;
   output.file = folder.path() / "a.tga";
   write_ssbump(output, {}, some_weights());
-  SsbumpTold told;
+  SsbumpHints told;
   told.scale = SsbumpScale::mod2x;
   EXPECT_THROW((void)read_ssbump(output.file, told), Error);
   told.scale = SsbumpScale::third;

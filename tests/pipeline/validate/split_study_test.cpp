@@ -12,9 +12,9 @@ namespace rnmbake {
 namespace {
 
 /// Two tiles in one object (loose parts), 4 units apart along x.
-ExportedScene two_tiles() {
-  ExportedScene exported;
-  add_object(exported.exchange, "tiles", {level(1, 0), level(1, 0, true, Vec3(4, 0, 0))}, Vec3(0.5F));
+ExportResult two_tiles() {
+  ExportResult exported;
+  add_object(exported.diffuse_scene, "tiles", {level(1, 0), level(1, 0, true, Vec3(4, 0, 0))}, Vec3(0.5F));
   add_target(exported, 0, 16);
   return exported;
 }
@@ -36,7 +36,7 @@ TEST(SplitStudy, GrowsAndNamesEachNumberOnce) {
 }
 
 TEST(SplitStudy, PiecesKeepTheTexels) {
-  const ExportedScene exported = two_tiles();
+  const ExportResult exported = two_tiles();
   for (const Splitting& one : splittings(exported)) {
     std::multiset<std::uint32_t> triangles;
     for (const Target& target : one.list.targets) {
@@ -60,7 +60,7 @@ TEST(SplitStudy, KeysAreUniqueAndPiecesAreNamed) {
 }
 
 TEST(SplitStudy, StartsFromWholeObjectsWhateverWasBaked) {
-  ExportedScene exported = two_tiles();
+  ExportResult exported = two_tiles();
   Target half = exported.list.targets.front();
   half.key = "tiles/part0";
   half.part = {"part0", {0, 1}};

@@ -8,7 +8,7 @@ namespace rnmbake {
 namespace {
 
 TEST(ValidateScope, ListsWhatTheLambertSceneStillHas) {
-  Exchange scene;
+  DiffuseScene scene;
   scene.outside = {{"object 'Vase'", {"glossy"}, {}},
                    {"object 'Fence'", {"casts no shadow", "glossy"}, {"casts no shadow"}},
                    {"world", {"volume"}, {"volume"}}};
@@ -18,12 +18,12 @@ TEST(ValidateScope, ListsWhatTheLambertSceneStillHas) {
 }
 
 TEST(ValidateScope, BouncesMatterWhereSomethingIsBright) {
-  Exchange scene;
+  DiffuseScene scene;
   add_object(scene, "grey", {level(1, 0)}, Vec3(0.7F));
   EXPECT_FALSE(bounces_matter(scene, 32));  // 0.7^33 = 8e-6
   EXPECT_TRUE(bounces_matter(scene, 4));
   scene.pictures.push_back({2, 1, {Vec3(0.1F), Vec3(0.2F, 0.95F, 0)}});
-  scene.looks[0].albedo_picture = 0;
+  scene.materials[0].albedo_picture = 0;
   EXPECT_TRUE(bounces_matter(scene, 32));
 }
 

@@ -20,7 +20,7 @@ GenerateOptions by(SsbumpMethod method, int rays) {
 }
 
 TEST(Generate, RaysAndHorizonsAgree) {
-  const HeightField field = rough_field(128, 4, Beyond::wrap, 8);
+  const HeightField field = rough_field(128, 4, WrapMode::wrap, 8);
   constexpr int rays = 2048;
   const FloatImage traced = generate(field, by(SsbumpMethod::trace, rays)).image;
   const FloatImage swept = generate(field, {}).image;
@@ -40,10 +40,10 @@ TEST(Generate, RaysAndHorizonsAgree) {
 
 TEST(Generate, ConesAreWholeOnAFlatMapAndHalfAtAWall) {
   const FloatImage flat =
-      generate(field_of(4, 4, Beyond::wrap, [](int, int) { return 1; }), by(SsbumpMethod::cone, 250)).image;
+      generate(field_of(4, 4, WrapMode::wrap, [](int, int) { return 1; }), by(SsbumpMethod::cone, 250)).image;
   for (const float weight : flat.data()) EXPECT_EQ(weight, 1);
 
-  const HeightField step = field_of(8, 3, Beyond::none, [](int x, int) { return x < 4 ? 0 : 200; });
+  const HeightField step = field_of(8, 3, WrapMode::none, [](int x, int) { return x < 4 ? 0 : 200; });
   constexpr int rays = 8192;
   const FloatImage cut = generate(step, by(SsbumpMethod::cone, rays)).image;
   EXPECT_NEAR(cut.texel(3, 1)[SsbumpWeights::up], 0.5, 4 * 0.5 / std::sqrt(rays / 2.0));
@@ -53,7 +53,7 @@ TEST(Generate, ConesAreWholeOnAFlatMapAndHalfAtAWall) {
 }
 
 TEST(Generate, ReflectionsGoWithTheAlbedo) {
-  const HeightField groove = field_of(32, 4, Beyond::wrap, [](int x, int) { return std::abs(x - 16); });
+  const HeightField groove = field_of(32, 4, WrapMode::wrap, [](int x, int) { return std::abs(x - 16); });
   GenerateOptions options = by(SsbumpMethod::horizon, 64);
   const FloatImage dark = generate(groove, options).image;
   options.bounces = 1;
@@ -72,7 +72,7 @@ TEST(Generate, ReflectionsGoWithTheAlbedo) {
 }
 
 TEST(Generate, AMapOfOneAlbedoIsThatAlbedo) {
-  const HeightField field = rough_field(16, 16, Beyond::wrap, 6);
+  const HeightField field = rough_field(16, 16, WrapMode::wrap, 6);
   GenerateOptions options = by(SsbumpMethod::horizon, 32);
   options.bounces = 2;
   options.albedo = 0.3F;
@@ -84,7 +84,7 @@ TEST(Generate, AMapOfOneAlbedoIsThatAlbedo) {
 }
 
 TEST(Generate, SaysWhatItCannotUse) {
-  HeightField field = rough_field(8, 8, Beyond::wrap, 6);
+  HeightField field = rough_field(8, 8, WrapMode::wrap, 6);
   GenerateOptions options;
   options.power = 0;
   EXPECT_THROW((void)generate(field, options), Error);
@@ -96,7 +96,7 @@ TEST(Generate, SaysWhatItCannotUse) {
 TEST(HeightTracer, MeetsWhatCastsTheShadow) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     const HeightField field = rough_field(24, 20, beyond, 12);
     const HeightTracer tracer(field);
     const HeightRays shadows(field);

@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-HeightField noise(int width, int height, Beyond x, Beyond y) {
+HeightField noise(int width, int height, WrapMode x, WrapMode y) {
   HeightField field{FloatImage(width, height, 1), x, y};
   std::mt19937 random(3);
   for (float& value : field.heights.data()) value = std::uniform_real_distribution<float>(0, 3)(random);
@@ -18,11 +18,11 @@ HeightField noise(int width, int height, Beyond x, Beyond y) {
 
 /// The definition, in double precision, without any thought of speed.
 double defined(const HeightField& field, int x, int y, int radius, double edge) {
-  const auto fold = [](int at, int count, Beyond beyond) {
-    if (beyond == Beyond::none) return std::clamp(at, 0, count - 1);
+  const auto fold = [](int at, int count, WrapMode beyond) {
+    if (beyond == WrapMode::none) return std::clamp(at, 0, count - 1);
     while (at < 0 || at >= count) {
-      if (beyond == Beyond::wrap) at += at < 0 ? count : -count;
-      if (beyond == Beyond::mirror) at = at < 0 ? -1 - at : 2 * count - 1 - at;
+      if (beyond == WrapMode::wrap) at += at < 0 ? count : -count;
+      if (beyond == WrapMode::mirror) at = at < 0 ? -1 - at : 2 * count - 1 - at;
     }
     return at;
   };
@@ -43,10 +43,10 @@ double defined(const HeightField& field, int x, int y, int radius, double edge) 
 }
 
 TEST(Bilateral, IsItsDefinitionAtEverySizeAndBorder) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     for (const auto& [width, height] :
          {std::pair(37, 5), std::pair(1, 1), std::pair(1, 40), std::pair(70, 33)}) {
-      const HeightField field = noise(width, height, beyond, Beyond::wrap);
+      const HeightField field = noise(width, height, beyond, WrapMode::wrap);
       const FloatImage filtered = bilateral(field, {7, 1.2F, 2});
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
@@ -57,7 +57,7 @@ TEST(Bilateral, IsItsDefinitionAtEverySizeAndBorder) {
 
 TEST(Bilateral, TakesStairStepsOutOfASlopeAndKeepsTheEdge) {
   constexpr int kSide = 96;
-  HeightField field{FloatImage(kSide, kSide, 1), Beyond::none, Beyond::none};
+  HeightField field{FloatImage(kSide, kSide, 1), WrapMode::none, WrapMode::none};
   const auto smooth = [](int x) { return 0.02F * static_cast<float>(x) + (x >= 48 ? 8.0F : 0.0F); };
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) field.heights.texel(x, y)[0] = std::round(8 * smooth(x)) / 8;
@@ -74,7 +74,7 @@ TEST(Bilateral, TakesStairStepsOutOfASlopeAndKeepsTheEdge) {
 }
 
 TEST(Bilateral, SwitchedOffChangesNothing) {
-  const HeightField field = noise(12, 9, Beyond::wrap, Beyond::wrap);
+  const HeightField field = noise(12, 9, WrapMode::wrap, WrapMode::wrap);
   EXPECT_EQ(bilateral(field, {0, 1, 0}).data(), field.heights.data());
 }
 

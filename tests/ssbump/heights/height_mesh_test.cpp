@@ -13,7 +13,7 @@
 namespace rnmbake {
 namespace {
 
-HeightField random_field(int width, int height, Beyond x, Beyond y, float amplitude = 2) {
+HeightField random_field(int width, int height, WrapMode x, WrapMode y, float amplitude = 2) {
   HeightField field{FloatImage(width, height, 1), x, y};
   std::mt19937 random(7);
   std::uniform_real_distribution<float> uniform(0, amplitude);
@@ -47,8 +47,8 @@ float height_at(const HeightField& field, int x, int y) {
 }
 
 TEST(HeightMesh, CopiesGoOnBeyondEveryBorder) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
-    const HeightField field = random_field(5, 3, beyond, Beyond::wrap);
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
+    const HeightField field = random_field(5, 3, beyond, WrapMode::wrap);
     const TriangleTree tree(all_copies(field, 8, PatchCuts::three).position);
     for (int y = -6; y < 9; ++y) {
       for (int x = -6; x < 11; ++x) {
@@ -69,7 +69,7 @@ TEST(HeightMesh, CopiesGoOnBeyondEveryBorder) {
 }
 
 TEST(HeightMesh, CellsLieOnTheBilinearSurface) {
-  const HeightField field = random_field(4, 4, Beyond::wrap, Beyond::wrap);
+  const HeightField field = random_field(4, 4, WrapMode::wrap, WrapMode::wrap);
   const TriangleTree tree(all_copies(field, 1, PatchCuts::five).position);
   for (const float u : {0.0F, 1.0F / 32, 0.25F, 0.5F, 0.75F, 31.0F / 32, 1.0F}) {
     const float a = field.heights.texel(1, 1)[0], b = field.heights.texel(2, 1)[0],
@@ -81,20 +81,20 @@ TEST(HeightMesh, CellsLieOnTheBilinearSurface) {
 }
 
 TEST(HeightMesh, TrianglesFaceUp) {
-  const HeightField field = random_field(4, 4, Beyond::mirror, Beyond::none);
+  const HeightField field = random_field(4, 4, WrapMode::mirror, WrapMode::none);
   const HighMesh high = all_copies(field, 4);
   for (const Vec3& normal : high.normal) EXPECT_GT(normal.z, 0);
 }
 
 /// Heights that do not change along y make every patch a plane: the very same surface.
 TEST(HeightMesh, AsAMeshItHasTheWeightsOfTheHeightField) {
-  HeightField field = random_field(16, 8, Beyond::wrap, Beyond::none, 3);
+  HeightField field = random_field(16, 8, WrapMode::wrap, WrapMode::none, 3);
   for (int y = 1; y < field.height(); ++y) {
     for (int x = 0; x < field.width(); ++x) field.heights.texel(x, y)[0] = field.heights.texel(x, 0)[0];
   }
   // On a ridge between two faces a point of the mesh belongs to one of them, a point of the field to both: so
   // there are four columns for one, and three of them are compared.
-  HeightField fine{FloatImage(64, 8, 1), Beyond::wrap, Beyond::wrap};
+  HeightField fine{FloatImage(64, 8, 1), WrapMode::wrap, WrapMode::wrap};
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 64; ++x) {
       const float a = field.heights.texel(x / 4, y)[0], b = field.heights.texel((x / 4 + 1) % 16, y)[0];
@@ -110,7 +110,7 @@ TEST(HeightMesh, AsAMeshItHasTheWeightsOfTheHeightField) {
   options.parts = 1;
   options.rays = 1024;
   HeightField endless = fine;  // the same surface in fewer triangles
-  endless.y = Beyond::none;
+  endless.y = WrapMode::none;
   const MeshOcclusion mesh = measure_occlusion(all_copies(endless, 64 * 12), {&low, 1}, options);
   GenerateOptions traced;
   traced.method = SsbumpMethod::trace;
@@ -153,7 +153,7 @@ SsbumpChannels seen_from(const TriangleTree& tree, const Vec3& place, const std:
 TEST(HeightMesh, SeesWhatTracedTexelsSeeWhateverLiesBeyond) {
   constexpr int count = 8192;
   const HemisphereRays rays(count, 1, 3);
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     HeightField field{FloatImage(9, 6, 1), beyond, beyond};
     for (int y = 0; y < 6; ++y) {
       for (int x = 0; x < 9; ++x)

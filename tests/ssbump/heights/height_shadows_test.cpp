@@ -48,7 +48,7 @@ TEST(HeightShadows, HorizonIsTheHighestOfAllPointsOnTheWay) {
 TEST(HeightShadows, AWallCastsAShadowOfKnownLength) {
   constexpr int kWall = 40;
   HeightField field = field_of(64, 8, [](int x, int) { return x >= kWall ? 10 : 0; });
-  field.x = Beyond::none;
+  field.x = WrapMode::none;
   for (const double azimuth : {0.0, 30.0, -60.0}) {
     for (const double elevation : {20.0, 35.0, 50.0}) {
       const FloatImage seen = height_shadows(field, light_from(azimuth, elevation));
@@ -64,7 +64,7 @@ TEST(HeightShadows, AWallCastsAShadowOfKnownLength) {
 /// Over the patch beside a spike of height H the diagonal rises as H u^2.
 TEST(HeightShadows, ASpikeSeenAlongTheDiagonal) {
   HeightField field = field_of(16, 16, [](int x, int y) { return x == 8 && y == 8 ? 6 : 0; });
-  field.x = field.y = Beyond::none;
+  field.x = field.y = WrapMode::none;
   const float half = std::sqrt(0.5F);
   const HeightRays rays(field);
   EXPECT_NEAR(rays.horizon_slope(6, 10, {half, half}, kFloor), 6 / (2 * std::sqrt(2)),
@@ -78,7 +78,7 @@ TEST(HeightShadows, ASpikeSeenAlongTheDiagonal) {
 TEST(HeightShadows, TheTopOfASaddleLiesWithinThePatch) {
   HeightField field =
       field_of(4, 4, [](int x, int y) { return (x == 1 && y == 2) || (x == 2 && y == 1) ? 4 : 0; });
-  field.x = field.y = Beyond::none;
+  field.x = field.y = WrapMode::none;
   const float half = std::sqrt(0.5F);
   // From (0, 0) down the picture: f = 8 u (1 - u) at distance sqrt 2 (1 + u).
   double best = 0;
@@ -92,24 +92,24 @@ TEST(HeightShadows, TheTopOfASaddleLiesWithinThePatch) {
 TEST(HeightShadows, BeyondTheBorder) {
   HeightField field = field_of(16, 4, [](int x, int) { return x == 1 ? 8 : 0; });
   const Vec2 right(1, 0);
-  field.x = Beyond::wrap;
+  field.x = WrapMode::wrap;
   EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, kFloor), 8 / 4.0, 1e-9);
-  field.x = Beyond::mirror;
+  field.x = WrapMode::mirror;
   EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, kFloor), 8 / 17.0,
               1e-9);  // 15, 16 = 15, .. 30 = 1
-  field.x = Beyond::none;
+  field.x = WrapMode::none;
   EXPECT_EQ(HeightRays(field).horizon_slope(13, 2, right, kFloor), kFloor);
 }
 
 TEST(HeightShadows, BeyondTheLastBorderTheWayEnds) {
   HeightField field = field_of(3, 2, [](int x, int) { return x == 1 ? 1e9F : 0.0F; });
-  field.x = field.y = Beyond::none;
+  field.x = field.y = WrapMode::none;
   const HeightRays rays(field);
   const double floor = 1e-9;  // 1e18 texels until the ray is above the highest
   for (const Vec2& outward : {Vec2(-1, 0), Vec2(-0.8F, 0.6F), Vec2(-0.6F, -0.8F)})
     EXPECT_EQ(rays.horizon_slope(0, 0, outward, floor), floor);
   EXPECT_EQ(rays.horizon_slope(0, 0, {1, 0}, floor), 1e9);
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror}) {
     field.y = beyond;
     for (const Vec2& along : {Vec2(0, 1), Vec2(-0.6F, -0.8F)})
       EXPECT_EQ(rays.horizon_slope(0, 0, along, floor), floor);
@@ -121,7 +121,7 @@ TEST(HeightShadows, FlatAndTiltedGroundSeesEveryLightAboveIt) {
   for (const FloatImage image = height_shadows(flat, light_from(12, 0.5)); const float value : image.data())
     EXPECT_EQ(value, 1);
   HeightField tilted = field_of(8, 8, [](int x, int) { return 0.5 * x; });
-  tilted.x = Beyond::none;
+  tilted.x = WrapMode::none;
   EXPECT_EQ(height_shadows(tilted, light_from(0, 26)).texel(3, 3)[0], 0);  // atan 0.5 is 26.57 degrees
   EXPECT_EQ(height_shadows(tilted, light_from(0, 27)).texel(3, 3)[0], 1);
   EXPECT_EQ(height_shadows(flat, {0, 0, 1}).texel(3, 3)[0], 1);
@@ -130,7 +130,7 @@ TEST(HeightShadows, FlatAndTiltedGroundSeesEveryLightAboveIt) {
 
 TEST(HeightShadows, ADiscOfLightHasAPenumbra) {
   HeightField field = field_of(128, 4, [](int x, int) { return x >= 100 ? 20 : 0; });
-  field.x = Beyond::none;
+  field.x = WrapMode::none;
   const FloatImage seen = height_shadows(field, light_from(0, 30), 4 * pi / 180);
   for (int x = 1; x < 100; ++x) EXPECT_LE(seen.texel(x, 1)[0], seen.texel(x - 1, 1)[0]);
   for (int x = 0; x < 100; ++x) {

@@ -40,7 +40,7 @@ double largest_difference(const FloatImage& a, const FloatImage& b) {
 }
 
 TEST(Horizon, NothingStandsOutOfAFlatMap) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     for (const auto& [width, height] : {std::pair(1, 1), {1, 7}, {9, 1}, {17, 33}}) {
       const SsbumpWeights weights =
           generate(field_of(width, height, beyond, [](int, int) { return 3.5; }), {});
@@ -50,7 +50,7 @@ TEST(Horizon, NothingStandsOutOfAFlatMap) {
 }
 
 TEST(Horizon, IsThatOfTheBilinearSurface) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     const Errors found = errors(rough_field(128, 160, beyond, 10), {}, 397);
     EXPECT_LE(found.rms, 0.001);
     EXPECT_LE(found.largest, 0.01);
@@ -59,7 +59,7 @@ TEST(Horizon, IsThatOfTheBilinearSurface) {
 
 TEST(Horizon, KeepsToItsBoundsOnSteepWavesWithTwiceTheAzimuths) {
   // slopes up to 3: lines that pass beside a texel's centre must not make waves stand in their own light
-  const HeightField waves = field_of(128, 128, Beyond::wrap, [](int x, int y) {
+  const HeightField waves = field_of(128, 128, WrapMode::wrap, [](int x, int y) {
     return 16 * (std::sin(2 * pi * x / 64) + std::sin(2 * pi * y / 64));
   });
   GenerateOptions options;
@@ -72,7 +72,7 @@ TEST(Horizon, KeepsToItsBoundsOnSteepWavesWithTwiceTheAzimuths) {
 TEST(Horizon, SeesTheMiddlesOfTwistedPatches) {
   // beside a step's corner: across that patch the surface bulges over the straight line between its edges
   const HeightField corner =
-      field_of(128, 128, Beyond::wrap, [](int x, int y) { return x < 64 && y < 64 ? 6 : 0; });
+      field_of(128, 128, WrapMode::wrap, [](int x, int y) { return x < 64 && y < 64 ? 6 : 0; });
   GenerateOptions options;
   options.azimuths = 128;
   const SsbumpWeights weights = generate(corner, options);
@@ -87,14 +87,14 @@ TEST(Horizon, SeesTheMiddlesOfTwistedPatches) {
 TEST(Horizon, LooksAlongABorderThatGoesOn) {
   // the groove's far side goes on behind the border and is seen at any angle to it
   const HeightField groove =
-      field_of(128, 128, Beyond::none, [](int x, int) { return 4 * std::abs(x - 64); });
+      field_of(128, 128, WrapMode::none, [](int x, int) { return 4 * std::abs(x - 64); });
   const Errors found = errors(groove, {}, 397);
   EXPECT_LE(found.rms, 0.001);
   EXPECT_LE(found.largest, 0.01);
 }
 
 TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
-  const HeightField field = rough_field(128, 128, Beyond::wrap, 30);
+  const HeightField field = rough_field(128, 128, WrapMode::wrap, 30);
   GenerateOptions options;
   const double rms = errors(field, options, 397).rms;
   options.azimuths = 256;
@@ -103,14 +103,14 @@ TEST(Horizon, MoreAzimuthsAndNearRowsComeCloser) {
 }
 
 /// Terraces with cliffs of `high` texels.
-HeightField cliffs(double high, Beyond beyond = Beyond::wrap) {
+HeightField cliffs(double high, WrapMode beyond = WrapMode::wrap) {
   HeightField field = rough_field(96, 96, beyond, 24);
   for (float& height : field.heights.data()) height = static_cast<float>(high * std::floor(height / 3));
   return field;
 }
 
 TEST(Horizon, AzimuthsAreDoubledUntilCliffsAreNearEnough) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     const Errors found = errors(cliffs(6, beyond), {}, 97);
     EXPECT_GT(found.azimuths, 64);
     EXPECT_LE(found.rms, 0.001);
@@ -123,7 +123,7 @@ TEST(Horizon, AzimuthsAreDoubledUntilCliffsAreNearEnough) {
 
 TEST(Horizon, SmoothWavesDoWithTheFirstAzimuths) {
   const Errors found =
-      errors(field_of(96, 96, Beyond::wrap,
+      errors(field_of(96, 96, WrapMode::wrap,
                       [](int x, int y) { return 4 * std::sin(2 * pi * x / 48) * std::cos(2 * pi * y / 32); }),
              {}, 97);
   EXPECT_EQ(found.azimuths, 64);
@@ -155,7 +155,7 @@ TEST(Horizon, AzimuthsThatAreToldAreTaken) {
 TEST(Horizon, OtherPowersComeOutOfTables) {
   GenerateOptions options;
   options.power = 4;
-  const Errors found = errors(rough_field(128, 128, Beyond::wrap, 10), options, 397);
+  const Errors found = errors(rough_field(128, 128, WrapMode::wrap, 10), options, 397);
   EXPECT_LE(found.rms, 0.002);
   EXPECT_LE(found.largest, 0.02);
 }
@@ -164,7 +164,7 @@ TEST(Horizon, AtTheBottomOfAGrooveIsAClosedForm) {
   // tan(elevation) = s |cos azimuth| on both sides, and the mean of cos^2(elevation) is 1 / sqrt(1 + s^2)
   for (const double slope : {0.25, 1.0}) {
     const HeightField field =
-        field_of(256, 256, Beyond::wrap, [&](int x, int) { return slope * std::abs(x - 128); });
+        field_of(256, 256, WrapMode::wrap, [&](int x, int) { return slope * std::abs(x - 128); });
     const SsbumpWeights weights = generate(field, {});
     EXPECT_NEAR(weights.image.texel(128, 100)[SsbumpWeights::ambient], 1 / std::sqrt(1 + slope * slope),
                 1e-4);
@@ -177,7 +177,7 @@ double seam_of(const HeightField& field) {
   const auto over = [&](int x, int y) {
     return std::pair((x + width / 2) % width, (y + height / 2) % height);
   };
-  const HeightField moved = field_of(width, height, Beyond::wrap, [&](int x, int y) {
+  const HeightField moved = field_of(width, height, WrapMode::wrap, [&](int x, int y) {
     const auto [u, v] = over(x, y);
     return field.heights.texel(u, v)[0];
   });
@@ -194,18 +194,18 @@ double seam_of(const HeightField& field) {
 }
 
 TEST(Horizon, ATileHasNoSeam) {
-  EXPECT_LE(seam_of(rough_field(128, 256, Beyond::wrap, 20)), 1e-5);
+  EXPECT_LE(seam_of(rough_field(128, 256, WrapMode::wrap, 20)), 1e-5);
 }
 
 TEST(Horizon, ACliffAtTheSeamIsNoneEither) {
   // beside the cliff texels see its end exactly, where the line that passes them stands higher
-  EXPECT_LE(seam_of(field_of(256, 256, Beyond::wrap, [](int x, int y) { return 0.25 * x + 0.125 * y; })),
+  EXPECT_LE(seam_of(field_of(256, 256, WrapMode::wrap, [](int x, int y) { return 0.25 * x + 0.125 * y; })),
             1e-5);
-  EXPECT_LE(seam_of(field_of(256, 256, Beyond::wrap, [](int x, int) { return x < 128 ? 16 : 0; })), 1e-5);
+  EXPECT_LE(seam_of(field_of(256, 256, WrapMode::wrap, [](int x, int) { return x < 128 ? 16 : 0; })), 1e-5);
 }
 
 TEST(Horizon, BandsAreTheWhole) {
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     const HeightField field = rough_field(70, 90, beyond, 20);
     GenerateOptions options;
     const FloatImage whole = generate(field, options).image;
@@ -225,7 +225,7 @@ TEST(Horizon, BandsAreTheWhole) {
 }
 
 TEST(Horizon, IsTheSameForAnyThreads) {
-  const HeightField field = rough_field(100, 60, Beyond::wrap, 20);
+  const HeightField field = rough_field(100, 60, WrapMode::wrap, 20);
   GenerateOptions options;
   options.threads = 1;
   const FloatImage one = generate(field, options).image;
@@ -234,7 +234,7 @@ TEST(Horizon, IsTheSameForAnyThreads) {
 }
 
 TEST(Horizon, IsTheSameWithAnyInstructions) {
-  const HeightField field = rough_field(100, 60, Beyond::wrap, 20);
+  const HeightField field = rough_field(100, 60, WrapMode::wrap, 20);
   const FloatImage best = generate(field, {}).image;
   const std::vector<std::string> all = sweep_instructions();
   for (const std::string& instructions : all) {
@@ -247,7 +247,7 @@ TEST(Horizon, IsTheSameWithAnyInstructions) {
 TEST(Horizon, StaysFiniteOnWildHeights) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> height(-1e4, 1e4);
-  for (const Beyond beyond : {Beyond::wrap, Beyond::mirror, Beyond::none}) {
+  for (const WrapMode beyond : {WrapMode::wrap, WrapMode::mirror, WrapMode::none}) {
     for (const auto& [width, height_] : {std::pair(1, 1), {1, 40}, {37, 1}, {3, 5}, {65, 31}}) {
       const auto weights =
           generate(field_of(width, height_, beyond, [&](int, int) { return height(random); }), {});

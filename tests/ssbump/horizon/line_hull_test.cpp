@@ -13,7 +13,7 @@
 // What follows is compiled for each set of instructions; the order matters.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "ssbump/line_hull_test.cpp"
+#define HWY_TARGET_INCLUDE "ssbump/horizon/line_hull_test.cpp"
 #include <hwy/foreach_target.h>
 
 #include "ssbump/horizon/line_hull-inl.h"

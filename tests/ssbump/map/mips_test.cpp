@@ -35,7 +35,7 @@ TEST(HalfSize, KeepsTheMeanAtAnySize) {
 
 /// Bumps, as unit normals up to about 50 degrees off.
 FloatImage bumpy_normals(int side) {
-  HeightField field{FloatImage(side, side, 1), Beyond::wrap, Beyond::wrap};
+  HeightField field{FloatImage(side, side, 1), WrapMode::wrap, WrapMode::wrap};
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x)
       field.heights.texel(x, y)[0] =

@@ -38,7 +38,7 @@ FloatImage random_weights(int side, int seed) {
 }
 
 TEST(HeightNormals, OfAPlaneAreItsOwnAndYIsUp) {
-  HeightField field{FloatImage(9, 7, 1), Beyond::none, Beyond::none};
+  HeightField field{FloatImage(9, 7, 1), WrapMode::none, WrapMode::none};
   for (int y = 0; y < 7; ++y)  // rises to the right and up the picture
     for (int x = 0; x < 9; ++x)
       field.heights.texel(x, y)[0] = 0.5F * static_cast<float>(x) - 0.25F * static_cast<float>(y);

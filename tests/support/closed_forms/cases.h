@@ -2,8 +2,8 @@
 // them. Values are E/pi.
 #pragma once
 
-#include "encoding/basis_set.h"
 #include "closed_forms/workbench.h"
+#include "encoding/basis_set.h"
 
 #include <cstddef>
 #include <functional>

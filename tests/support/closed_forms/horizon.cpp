@@ -46,7 +46,7 @@ struct Face {
   }
 };
 
-std::vector<Face> faces_of(const Survey& survey, const std::string& name) {
+std::vector<Face> faces_of(const SceneSurvey& survey, const std::string& name) {
   for (const SceneObject& object : survey.objects) {
     if (object.key != name) continue;
     const Mesh& mesh = survey.mesh_of(object);
@@ -130,8 +130,8 @@ Words horizon_flags() {
   return {"--resolution", "64", "--samples", "100", "--bounces", "0"};
 }
 
-HorizonOutcome compare_horizon(const HorizonCase& horizon, const Survey& survey, const LayeredImage& lightmap,
-                               double footprint) {
+HorizonOutcome compare_horizon(const HorizonCase& horizon, const SceneSurvey& survey,
+                               const LayeredImage& lightmap, double footprint) {
   const std::vector<Face> faces = faces_of(survey, horizon.object);
   std::vector<Vec2> corners;
   for (const Face& face : faces) corners.insert(corners.end(), face.uv.begin(), face.uv.end());

@@ -33,7 +33,7 @@ struct HorizonOutcome {
 };
 
 /// The right answer is averaged over the texel as Blender's samples are spread (`footprint`, in texels).
-[[nodiscard]] HorizonOutcome compare_horizon(const HorizonCase& horizon, const Survey& survey,
+[[nodiscard]] HorizonOutcome compare_horizon(const HorizonCase& horizon, const SceneSurvey& survey,
                                              const LayeredImage& lightmap, double footprint);
 
 /// Texels along a side that a version's samples are spread over.

@@ -1,10 +1,10 @@
 #include "closed_forms/workbench.h"
-#include "scene/survey_parse.h"
 
 #include "base/error.h"
 #include "blender/find.h"
 #include "blender/real_blender.h"
 #include "process/run.h"
+#include "scene/survey_parse.h"
 
 #include <utility>
 #include <variant>
@@ -99,7 +99,7 @@ fs::path Workbench::exported(const fs::path& blend) {
   return scene;
 }
 
-Survey Workbench::survey(const fs::path& blend) {
+SceneSurvey Workbench::survey(const fs::path& blend) {
   RealBlender blender(blender_, RealBlender::Options{{}, fs::path(RNMBAKE_SOURCE_DIR "/blender_scripts")});
   Launch launch;
   launch.entry = "survey_entry.py";

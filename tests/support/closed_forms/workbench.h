@@ -55,7 +55,7 @@ class Workbench {
   /// The .rnmscene of a scene.
   [[nodiscard]] std::filesystem::path exported(const std::filesystem::path& blend);
 
-  [[nodiscard]] Survey survey(const std::filesystem::path& blend);
+  [[nodiscard]] SceneSurvey survey(const std::filesystem::path& blend);
 
  private:
   std::filesystem::path new_path(const std::string& name);

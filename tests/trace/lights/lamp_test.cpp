@@ -1,6 +1,6 @@
 #include "trace/lights/lamp.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(LightLampTest, SunsOfAnySize) {
   for (const char* version : {"3.4.1", "4.3.2"}) {
     LitScene scene;
     scene.lamp("SUN", 3, {{"angle", 1.2}}).to_world.rotate(Vec3d(0.5, 0, 0));
-    const Vec3 axis(row(scene.exchange.survey.lights[0].to_world, 2));
+    const Vec3 axis(row(scene.diffuse_scene.survey.lights[0].to_world, 2));
     const double c = std::cos(0.6);
     const bool flat = version[0] == '3';
     // A flat disk at distance 1 has the density slant^3 per solid angle; later suns are even per solid angle.

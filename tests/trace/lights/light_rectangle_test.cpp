@@ -1,6 +1,6 @@
 #include "trace/lights/light_rectangle.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <cmath>
 #include <vector>

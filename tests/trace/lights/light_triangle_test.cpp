@@ -1,6 +1,6 @@
 #include "trace/lights/light_triangle.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ const Vec3 up(0, 0, 1);
 TEST(LightTriangleTest, GlowingTrianglesShineBothWays) {
   LitScene scene;
   const Vec3 a(-0.5F, -0.6F, 1), b(1.5F, 0, 0.8F), c(0, 1, 1.4F);
-  scene.triangle(scene.look({2, 1, 0.5F}), a, b, c);
+  scene.triangle(scene.material({2, 1, 0.5F}), a, b, c);
   const Lights lights = scene.lights();
   for (const Vec3& point : {Vec3(0, 0, 0), Vec3(0.2F, 0.1F, 0.95F), Vec3(5, 3, -8), Vec3(0.1F, 0.4F, 3)}) {
     const Vec3 to_it = ((a + b + c) / 3 - point).normalized();
@@ -30,12 +30,12 @@ TEST(LightTriangleTest, GlowingTrianglesShineBothWays) {
 
 TEST(LightTriangleTest, PicturedTrianglesAreReadWhereTheyAreHit) {
   LitScene scene;
-  Picture picture{64, 64, std::vector<Vec3>(64 * 64, Vec3(0, 0, 0))};
+  Texture picture{64, 64, std::vector<Vec3>(64 * 64, Vec3(0, 0, 0))};
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) picture.texels[std::size_t(64) * y + x] = Vec3(static_cast<float>(x) / 32);
   }
-  scene.exchange.pictures.push_back(picture);
-  scene.triangle(scene.look({0, 0, 0}, 0), {-1, -1, 2}, {1, -1, 2}, {-1, 1, 2});
+  scene.diffuse_scene.pictures.push_back(picture);
+  scene.triangle(scene.material({0, 0, 0}, 0), {-1, -1, 2}, {1, -1, 2}, {-1, 1, 2});
   double truth = 0;
   constexpr int steps = 1500;
   for (int i = 0; i < steps; ++i) {
@@ -51,10 +51,10 @@ TEST(LightTriangleTest, PicturedTrianglesAreReadWhereTheyAreHit) {
 
 TEST(LightTriangleTest, OneLitTexelIsEnough) {
   LitScene scene;
-  Picture picture{256, 256, std::vector<Vec3>(256 * 256, Vec3(0, 0, 0))};
+  Texture picture{256, 256, std::vector<Vec3>(256 * 256, Vec3(0, 0, 0))};
   picture.texels[256 * 130 + 77] = Vec3(1000, 0, 0);
-  scene.exchange.pictures.push_back(picture);
-  scene.triangle(scene.look({0, 0, 0}, 0), {-1, -1, 2}, {1, -1, 2}, {-1, 1, 2});
+  scene.diffuse_scene.pictures.push_back(picture);
+  scene.triangle(scene.material({0, 0, 0}, 0), {-1, -1, 2}, {1, -1, 2}, {-1, 1, 2});
   EXPECT_GT(irradiance(scene.lights(), {0, 0, 0}, up).mean, 0);
   EXPECT_GT(scene.lights().triangle_pdf({0, 0, 0}, up, 0, up, 2), 0);
 }

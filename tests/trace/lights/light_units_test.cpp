@@ -1,6 +1,6 @@
 #include "trace/lights/light_units.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 const Vec3 up(0, 0, 1);
 
 Lamp read_one(const LitScene& scene, const std::string& version) {
-  const std::vector<Lamp> lamps = read_lamps(scene.exchange.survey, version);
+  const std::vector<Lamp> lamps = read_lamps(scene.diffuse_scene.survey, version);
   EXPECT_EQ(lamps.size(), 1U);
   return lamps.at(0);
 }
@@ -73,7 +73,7 @@ TEST(LightUnitsTest, SunsCountTheirStrength) {
   const double c = std::cos(0.15);
   EXPECT_NEAR(below(scene, "3.4.1"), 3 / pi * 2 * c / (1 + c), 1e-4);
   EXPECT_NEAR(below(scene, "4.3.2"), 3 / pi, 1e-4);
-  scene.exchange.survey.lights[0].sizes["normalize"] = 0;
+  scene.diffuse_scene.survey.lights[0].sizes["normalize"] = 0;
   EXPECT_NEAR(below(scene, "5.2.2"), 3 * std::sin(0.15) * std::sin(0.15), 1e-5);
 }
 
@@ -82,7 +82,7 @@ TEST(LightUnitsTest, LampsWithoutPowerOrSizeGiveNothing) {
   scene.lamp("POINT", 0);
   scene.lamp("AREA", 10, {{"size", 0}});
   scene.lamp("SUN", 3).color = {0, 0, 0};
-  EXPECT_TRUE(read_lamps(scene.exchange.survey, "5.2.2").empty());
+  EXPECT_TRUE(read_lamps(scene.diffuse_scene.survey, "5.2.2").empty());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "trace/lights/lights.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +19,7 @@ const Vec3 tilted = Vec3(0.8F, -0.3F, 0.5F).normalized();
 
 TEST(LightsTest, NothingThatGlowsIsEmpty) {
   LitScene scene;
-  scene.triangle(scene.look({0, 0, 0}), {0, 0, 1}, {1, 0, 1}, {0, 1, 1});
+  scene.triangle(scene.material({0, 0, 0}), {0, 0, 1}, {1, 0, 1}, {0, 1, 1});
   scene.lamp("POINT", 0);
   const Lights lights = scene.lights();
   EXPECT_TRUE(lights.empty());
@@ -36,24 +36,24 @@ TEST(LightsTest, NothingThatGlowsIsEmpty) {
 /// Suns, lamps, triangles and the world at once: their sum, whatever is chosen how often.
 LitScene everything() {
   LitScene scene;
-  scene.exchange.world.radiance = Vec3(0.2F, 0.1F, 0.1F);
+  scene.diffuse_scene.world.radiance = Vec3(0.2F, 0.1F, 0.1F);
   scene.lamp("SUN", 0.5).to_world.rotate(Vec3d(0.4, 0.3, 0));
   scene.lamp("SUN", 0.1).to_world.rotate(Vec3d(2.4, 0.3, 0));  // from below
   scene.lamp("SUN", 0.3).to_world.rotate(Vec3d(-0.9, 0.3, 0));
   for (int i = 0; i < 12; ++i)
     scene.lamp("POINT", 3 + i).to_world.translate(Vec3d(i - 6, 0.3 * i, 1 + 0.2 * i));
-  const int look = scene.look({1, 1, 1});
+  const int material = scene.material({1, 1, 1});
   for (int i = 0; i < 40; ++i) {
     const int line = i / 8;
     const auto x = static_cast<float>(i % 8 - 4), y = static_cast<float>(line - 2);
-    scene.triangle(look, {x, y, 3}, {x + 0.5F, y, 3}, {x, y + 0.5F, 3.5F});
+    scene.triangle(material, {x, y, 3}, {x + 0.5F, y, 3}, {x, y + 0.5F, 3.5F});
   }
   return scene;
 }
 
 double truth_of_everything(const LitScene& scene, const Vec3d& point, const Vec3d& normal) {
-  double sum = pi * double(scene.exchange.world.radiance.x);
-  for (const LightInfo& light : scene.exchange.survey.lights) {
+  double sum = pi * double(scene.diffuse_scene.world.radiance.x);
+  for (const LightInfo& light : scene.diffuse_scene.survey.lights) {
     const Vec3d axis = row(light.to_world, 2), way = row(light.to_world, 3) - point;
     if (light.type == "SUN")
       sum += light.energy * std::max(0.0, axis.dot(normal));
@@ -91,7 +91,7 @@ TEST(LightsTest, DensitiesAgree) {
     const Vec3 point(4 * next() - 2, 4 * next() - 2, 2 * next());
     const Vec3 normal = i % 3 == 0 ? Vec3(0, 0, 0) : i % 3 == 1 ? up : tilted;
     const LightSample sample = lights.sample(point, normal, {next(), next(), next()});
-    if (sample.pdf == 0 || !sample.chance_hits) continue;
+    if (sample.pdf == 0 || !sample.sample_bsdf) continue;
     if (std::isinf(sample.distance)) {
       ++worlds;
       EXPECT_NEAR(lights.world_pdf(point, normal, sample.direction), sample.pdf, 1e-4 * sample.pdf);
@@ -123,9 +123,9 @@ TEST(LightsTest, DensitiesAgree) {
 TEST(LightsTest, DensitiesIntegrateToTheShareOfChanceHits) {
   LitScene scene = everything();
   scene.triangles = {};
-  const int look = scene.look({5, 5, 5});
+  const int material = scene.material({5, 5, 5});
   const Vec3 a(-1, -1, 1), b(1, -1, 1), c(0, 1, 1.2F);
-  scene.triangle(look, a, b, c);
+  scene.triangle(material, a, b, c);
   const Lights lights = scene.lights();
   const Vec3 point(0.1F, 0, 0);
   const Vec3 n = (b - a).cross(c - a).normalized();
@@ -146,7 +146,7 @@ TEST(LightsTest, DensitiesIntegrateToTheShareOfChanceHits) {
   for (int i = 0; i < samples; ++i) {
     const auto next = [&] { return static_cast<float>(random() >> 8) * 0x1p-24F; };
     const LightSample sample = lights.sample(point, up, {next(), next(), next()});
-    chance += sample.pdf > 0 && sample.chance_hits;
+    chance += sample.pdf > 0 && sample.sample_bsdf;
   }
   const double share = double(chance) / samples;
   EXPECT_NEAR(sum, share, 4 * std::sqrt(share * (1 - share) / samples) + 1e-3);
@@ -154,12 +154,12 @@ TEST(LightsTest, DensitiesIntegrateToTheShareOfChanceHits) {
 
 TEST(LightsTest, PointsOnALightAndOddTrianglesGiveFiniteNumbers) {
   LitScene scene;
-  const int look = scene.look({1, 1, 1});
-  scene.triangle(look, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  scene.triangle(look, {0, 0, 1}, {1, 0, 1}, {2, 0, 1});          // a line
-  scene.triangle(look, {0, 0, 1}, {1e-7F, 0, 1}, {0, 1e-7F, 1});  // tiny
-  scene.triangle(look, {5, 5, 1}, {5, 5, 1}, {5, 5, 1});          // a point
-  scene.triangle(look, {0, 0, 2}, {100, 1e-6F, 2}, {200, 0, 2});  // a needle
+  const int material = scene.material({1, 1, 1});
+  scene.triangle(material, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  scene.triangle(material, {0, 0, 1}, {1, 0, 1}, {2, 0, 1});          // a line
+  scene.triangle(material, {0, 0, 1}, {1e-7F, 0, 1}, {0, 1e-7F, 1});  // tiny
+  scene.triangle(material, {5, 5, 1}, {5, 5, 1}, {5, 5, 1});          // a point
+  scene.triangle(material, {0, 0, 2}, {100, 1e-6F, 2}, {200, 0, 2});  // a needle
   scene.lamp("POINT", 10, {{"shadow_soft_size", 0.2}});
   scene.lamp("AREA", 10, {{"size", 0.0}});
   scene.lamp("SPOT", 10, {{"spot_size", 3.14159}, {"spot_blend", 1.0}});
@@ -184,7 +184,7 @@ TEST(LightsTest, PointsOnALightAndOddTrianglesGiveFiniteNumbers) {
 TEST(LightsTest, FarFromTheOrigin) {
   LitScene scene;
   const Vec3 far(1024, -512, 256);  // exact in floats
-  scene.triangle(scene.look({2, 2, 2}), far + Vec3(-1, -1, 1), far + Vec3(1, -1, 1), far + Vec3(0, 1, 1));
+  scene.triangle(scene.material({2, 2, 2}), far + Vec3(-1, -1, 1), far + Vec3(1, -1, 1), far + Vec3(0, 1, 1));
   const double truth = 2 * polygon_irradiance({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {0, 0, 0}, {0, 0, 1});
   expect_irradiance(scene.lights(), far, up, truth, "triangle");
   LitScene area;
@@ -199,16 +199,16 @@ TEST(LightsTest, ManyLightsAreChosenWell) {
   LitScene scene;
   std::mt19937 random(11);
   const auto next = [&] { return double(random() >> 8) * 0x1p-24; };
-  const int look = scene.look({1, 1, 1});
+  const int material = scene.material({1, 1, 1});
   for (int i = 0; i < 5000; ++i) {
     scene.lamp("POINT", 1).to_world.translate(Vec3d(100 * next(), 100 * next(), 2 + next()));
     const Vec3 at(Vec3d(100 * next(), 100 * next(), 2 + next()));
-    scene.triangle(look, at, at + Vec3(0.2F, 0, 0.1F), at + Vec3(0, 0.2F, 0));
+    scene.triangle(material, at, at + Vec3(0.2F, 0, 0.1F), at + Vec3(0, 0.2F, 0));
   }
   const Lights lights = scene.lights();
   const Vec3 point(50, 40, 0);
   double truth = truth_of_everything(scene, Vec3d(point), {0, 0, 1}), even_square = 0;
-  for (const LightInfo& light : scene.exchange.survey.lights) {
+  for (const LightInfo& light : scene.diffuse_scene.survey.lights) {
     const Vec3d way = row(light.to_world, 3) - Vec3d(point);
     even_square += 10000 * std::pow(1 / (4 * pi) / way.length2() * way.normalized().z, 2);
   }

@@ -1,6 +1,6 @@
 #include "trace/lights/world_light.h"
 
-#include "light_support.h"
+#include "trace/lights/light_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,30 +16,30 @@ const Vec3 tilted = Vec3(0.8F, -0.3F, 0.5F).normalized();
 
 LitScene pictured(int width, int height, const std::function<float(int x, int y)>& value) {
   LitScene scene;
-  Picture picture{width, height, {}};
+  Texture picture{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) picture.texels.emplace_back(value(x, y));
   }
-  scene.exchange.pictures.push_back(picture);
-  scene.exchange.world.picture = 0;
+  scene.diffuse_scene.pictures.push_back(picture);
+  scene.diffuse_scene.world.picture = 0;
   return scene;
 }
 
 TEST(WorldLightTest, ConstantSkiesLightEverySideAlike) {
   LitScene scene;
-  scene.exchange.world.radiance = Vec3(0.7F);
+  scene.diffuse_scene.world.radiance = Vec3(0.7F);
   for (const Vec3& normal : {up, tilted, -up}) {
     expect_irradiance(scene.lights(), {0, 0, 0}, normal, 0.7 * pi, "told the normal");
     expect_irradiance(scene.lights(), {0, 0, 0}, normal, 0.7 * pi, "not told", false);
   }
-  const WorldLight world(scene.exchange);
+  const WorldLight world(scene.diffuse_scene);
   EXPECT_EQ(world.pdf(up, -up), 0);
   EXPECT_NEAR(over_sphere(up, [&](const Vec3& d) { return world.pdf(tilted, d); }), 1, 1e-3);
   EXPECT_NEAR(over_sphere(up, [&](const Vec3& d) { return world.pdf(nowhere, d); }), 1, 1e-5);
 }
 
 /// The density is even in each cell: cells times their solid angles are its integral.
-double sum_of_cells(const WorldLight& world, const Picture& picture) {
+double sum_of_cells(const WorldLight& world, const Texture& picture) {
   double sum = 0;
   const double w = picture.width, h = picture.height;
   for (int y = 0; y < picture.height; ++y) {
@@ -67,19 +67,19 @@ TEST(WorldLightTest, PicturesOfManyKinds) {
       EXPECT_LE(seen.error, 1e-3 * truth);
       EXPECT_NEAR(seen.mean, truth, 4 * seen.error + 1e-4 * truth);  // the sum's own error
     }
-    EXPECT_NEAR(sum_of_cells(WorldLight(scene.exchange), scene.exchange.pictures[0]), 1, 1e-5);
+    EXPECT_NEAR(sum_of_cells(WorldLight(scene.diffuse_scene), scene.diffuse_scene.pictures[0]), 1, 1e-5);
   }
 }
 
 TEST(WorldLightTest, DensitiesAreThoseOfTheSamples) {
   const LitScene scene = pictured(300, 150, [](int x, int y) { return static_cast<float>((x ^ y) % 17); });
-  const WorldLight world(scene.exchange);
+  const WorldLight world(scene.diffuse_scene);
   std::mt19937 random(1);
   const auto next = [&] { return static_cast<float>(random() >> 8) * 0x1p-24F; };
   int differ = 0;
   for (int i = 0; i < 100000; ++i) {
     const LightSample sample = world.sample(up, {next(), next()}, next());
-    EXPECT_TRUE(sample.chance_hits);
+    EXPECT_TRUE(sample.sample_bsdf);
     EXPECT_TRUE(std::isinf(sample.distance));
     EXPECT_NEAR((sample.radiance - world.radiance(sample.direction)).length(), 0, 0.01);
     differ += std::abs(world.pdf(up, sample.direction) - sample.pdf) > 1e-4F * sample.pdf;
@@ -90,7 +90,7 @@ TEST(WorldLightTest, DensitiesAreThoseOfTheSamples) {
 /// Bilinear reading spreads a texel over its neighbours, across the seam as well.
 TEST(WorldLightTest, NothingThatShinesIsMissed) {
   const LitScene scene = pictured(8, 4, [](int x, int y) { return x == 0 && y == 2 ? 1.0F : 0.0F; });
-  const WorldLight world(scene.exchange);
+  const WorldLight world(scene.diffuse_scene);
   over_sphere(
       up,
       [&](const Vec3& d) {
@@ -103,7 +103,7 @@ TEST(WorldLightTest, NothingThatShinesIsMissed) {
 }
 
 TEST(WorldLightTest, BlackWorldsGiveNothing) {
-  EXPECT_TRUE(WorldLight(Exchange{}).black());
+  EXPECT_TRUE(WorldLight(DiffuseScene{}).black());
   EXPECT_TRUE(pictured(4, 2, [](int, int) { return 0.0F; }).lights().empty());
 }
 

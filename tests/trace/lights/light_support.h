@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scene/diffuse_scene.h"
-#include "trace/lights/lights.h"
 #include "trace/geometry/triangles.h"
+#include "trace/lights/lights.h"
 
 #include <cmath>
 #include <functional>
@@ -18,7 +18,7 @@ namespace rnmbake {
 
 /// Lamps, triangles and a world, with the Lights of them.
 struct LitScene {
-  Exchange exchange;
+  DiffuseScene diffuse_scene;
   Triangles triangles;
 
   LightInfo& lamp(const std::string& type, double energy, std::map<std::string, double> sizes = {}) {
@@ -26,25 +26,25 @@ struct LitScene {
     info.name = info.type = type;
     info.energy = energy;
     info.sizes = std::move(sizes);
-    exchange.survey.lights.push_back(info);
-    return exchange.survey.lights.back();
+    diffuse_scene.survey.lights.push_back(info);
+    return diffuse_scene.survey.lights.back();
   }
-  int look(const Vec3& emission, int picture = -1) {
-    Look look;
-    look.emission = emission;
-    look.emission_picture = picture;
-    exchange.looks.push_back(look);
-    return static_cast<int>(exchange.looks.size()) - 1;
+  int material(const Vec3& emission, int picture = -1) {
+    SurfaceMaterial material;
+    material.emission = emission;
+    material.emission_picture = picture;
+    diffuse_scene.materials.push_back(material);
+    return static_cast<int>(diffuse_scene.materials.size()) - 1;
   }
-  void triangle(int look, const Vec3& a, const Vec3& b, const Vec3& c) {
+  void triangle(int material, const Vec3& a, const Vec3& b, const Vec3& c) {
     for (const Vec3& p : {a, b, c}) triangles.position.push_back(p);
     for (int k = 0; k < 3; ++k) triangles.normal.push_back((b - a).cross(c - a).normalized());
     for (const Vec2& uv : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) triangles.uv.push_back(uv);
-    triangles.look.push_back(static_cast<std::uint32_t>(look));
+    triangles.material.push_back(static_cast<std::uint32_t>(material));
     triangles.object.push_back(0);
   }
   [[nodiscard]] Lights lights(const std::string& version = "5.2.2") const {
-    return {exchange, triangles, version};
+    return {diffuse_scene, triangles, version};
   }
 };
 
