@@ -60,7 +60,7 @@ def bake_atlas(task, scene, atlas, tell):
             begun, ended = number / len(atlas["groups"]), (number + 1) / len(atlas["groups"])
             tell("build", begun)
             mesh = receivers.build_mesh("rnmbake receiver", stream, group["corners"])
-            receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["like"])
+            receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["light_group"])
             prepare += clock.lap()
             tell("bake", begun, ended, samples)
             cycles.bake_diffuse(scene, receiver, clear=number == 0)

@@ -25,7 +25,7 @@ def main(task):
     export_notes.remember_camera(bpy.context.scene)
     warnings += displacement.settle()
     task.progress("evaluate")
-    shown = lambert_collect.collect()
+    shown = lambert_collect.Scene()
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
     lambert_scene.rebuild(shown)
     warnings += shown.warnings + lambert_bake.replace_materials(task, shown.surfaces)

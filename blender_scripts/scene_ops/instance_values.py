@@ -1,28 +1,38 @@
 """What materials may ask of the object or instance that they are on, as custom properties of its stand-in.
 
-Cycles looks up attributes of objects and instancers there; an instance's random number gets a name of ours. That of other
-objects comes from their name, which stays.
+Cycles looks up attributes of objects and instancers there; an instance's random number and its coordinates get names of
+ours. The number of other objects comes from their name, which stays.
 """
 import bpy
 
 from scene_ops.keys import instancer_of
 from scene_ops.survey import with_render_depsgraph
 
-RANDOM = "rnmbake random"
+# What nodes ask of an instance, by the output that says it.
+RANDOM, GENERATED, UV = "rnmbake random", "rnmbake instancer generated", "rnmbake instancer uv"
 
 
-def values_of(instance, by_host):
-    """{name: number or list}. `by_host`: what attributes_by_host() found."""
-    ob = instance.object
-    values = {**plain_properties(ob.original.data), **plain_properties(ob.original)}
-    if instance.is_instance and instance.parent:
-        values = {**plain_properties(instance.parent.original), **values}
-        if instancer_of(instance):
-            own = by_host.get(instance.parent.original.name_full, [])
-            number = instance.persistent_id[0]
-            values.update(own[number] if number < len(own) else {})
-        values[RANDOM] = instance.random_id / 0xffffffff
-    return values
+class InstanceValues:
+    """Of the scene at one moment."""
+
+    def __init__(self):
+        self._by_host = attributes_by_host()
+        self._with_coordinates = any(getattr(node, "from_instancer", False) for tree in node_trees() for node in tree.nodes)
+
+    def of(self, instance):
+        """{name: number or list}"""
+        ob = instance.object
+        values = {**plain_properties(ob.original.data), **plain_properties(ob.original)}
+        if instance.is_instance and instance.parent:
+            values = {**plain_properties(instance.parent.original), **values}
+            if instancer_of(instance):
+                own = self._by_host.get(instance.parent.original.name_full, [])
+                number = instance.persistent_id[0]
+                values.update(own[number] if number < len(own) else {})
+            values[RANDOM] = (instance.random_id & 0xffffffff) / 0xffffffff  # Python has it with a sign
+            if self._with_coordinates:
+                values[GENERATED], values[UV] = [0.5 * at - 0.5 for at in instance.orco], [*instance.uv, 0.0]
+        return values
 
 
 def plain_properties(block):
@@ -34,17 +44,31 @@ def plain_properties(block):
     return found
 
 
-def answer_random(tree):
-    """The Random of Object Info nodes is read from the property; groups get trees of their own."""
+def asked_by(node):
+    """(output, property) of what the node asks of an instance."""
+    if node.type == "OBJECT_INFO":
+        answers = {"Random": RANDOM}
+    else:
+        answers = {"Generated": GENERATED, "UV": UV} if getattr(node, "from_instancer", False) else {}
+    return [(node.outputs[name], value) for name, value in answers.items()
+            if name in node.outputs and node.outputs[name].is_linked]
+
+
+def asks(tree):
+    return any(asked_by(node) or (node.type == "GROUP" and node.node_tree and asks(node.node_tree)) for node in tree.nodes)
+
+
+def answer(tree):
+    """What nodes ask of an instance is read from its stand-in's properties; groups get trees of their own."""
     for node in list(tree.nodes):
         if node.type == "GROUP" and node.node_tree:
             node.node_tree = node.node_tree.copy()
-            answer_random(node.node_tree)
-        elif node.type == "OBJECT_INFO" and node.outputs["Random"].is_linked:
+            answer(node.node_tree)
+        for output, name in asked_by(node):
             attribute = tree.nodes.new("ShaderNodeAttribute")
-            attribute.attribute_type, attribute.attribute_name = "OBJECT", RANDOM
-            for link in list(node.outputs["Random"].links):
-                tree.links.new(attribute.outputs["Fac"], link.to_socket)
+            attribute.attribute_type, attribute.attribute_name = "OBJECT", name
+            for link in list(output.links):
+                tree.links.new(attribute.outputs["Fac" if name == RANDOM else "Vector"], link.to_socket)
 
 
 # ---- attributes that geometry nodes give to instances: Python sees them on points alone -------------------

@@ -3,7 +3,7 @@ import bpy
 
 NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
 
-# On objects that stand for a surface of the user's scene (lambert_scene.py, saved_scene.py): its key and name there.
+# On objects that stand for a surface of the user's scene (stand_ins.py): its key and name there.
 KEY_PROPERTY, NAME_PROPERTY = "rnmbake key", "rnmbake name"
 LABEL_PROPERTY = "rnmbake material"  # on materials, likewise
 

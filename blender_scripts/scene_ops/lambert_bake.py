@@ -12,6 +12,7 @@ from mathutils import Vector
 
 from core.task import Refusal
 from scene_ops import lambert_uv
+from scene_ops.instance_values import RANDOM
 from scene_ops.lambert_bench import bench, new_image
 from scene_ops.lambert_materials import BLACK, Source, picture, stand_in
 from scene_ops.lambert_pixels import (brightness, cut, farthest_from_black, keep_if_bright, left_beside,
@@ -70,7 +71,7 @@ def make_groups(surfaces, sources):
     groups = {}
     for surface in surfaces:
         mesh, materials = surface.data, surface.materials or [None]
-        kinds = [(material, surface.is_copy) for material in materials]
+        kinds = [(material, RANDOM in surface.values) for material in materials]
         for kind in kinds:
             if kind not in sources:
                 sources[kind] = Source(*kind)

@@ -79,6 +79,8 @@ def is_uniform(node):
 
 
 def is_mesh_bound(node):
+    if getattr(node, "from_instancer", False):
+        return False
     if node.type == "TEX_COORD":
         return not any(out.is_linked for out in node.outputs if out.name not in ("UV", "Generated"))
     if node.type == "ATTRIBUTE":
@@ -108,8 +110,8 @@ def answer_what_a_bake_cannot(copy, on_copies):
     nodes = surface_nodes(copy)
     if any(node.type == "LIGHT_PATH" for node in nodes):
         light_paths.answer(copy.node_tree)
-    if on_copies and any(node.type == "OBJECT_INFO" for node in nodes):
-        instance_values.answer_random(copy.node_tree)
+    if on_copies and instance_values.asks(copy.node_tree):
+        instance_values.answer(copy.node_tree)
 
 
 def make_lambert(material, color, emission, transmittance=BLACK, peak=1.0):

@@ -64,17 +64,16 @@ def make_material(image):
     return material
 
 
-def make_receiver(scene, mesh, material, like=""):
+def make_receiver(scene, mesh, material, light_group=""):
     """Link an object that the camera (and so the bake) sees and no other ray does.
 
-    `like`: the name of the object that it stands for where lights choose what they light.
+    `light_group`: of what it stands for, where lights choose what they light (scene_ops/light_linking.py).
     """
     receiver = _camera_only(scene, mesh)
     _camera_only(scene, mesh)  # a mesh with two users keeps a BVH of its own, which other rays pass by as a whole
     mesh.materials.append(material)
     _no_terminator_offset(receiver)
-    if like:
-        light_linking.follow(receiver, bpy.data.objects[like])
+    light_linking.join_group(receiver, light_group)
     return receiver
 
 

@@ -9,10 +9,9 @@ from array import array
 import bpy
 
 from core.task import Refusal
-from scene_ops import realize, uv_order
+from scene_ops import realize, shown, stand_ins, uv_order
 from scene_ops.kept_settings import kept_settings
-from scene_ops.keys import KEY_PROPERTY, NAME_PROPERTY, instancer_of
-from scene_ops.light_linking import light_group
+from scene_ops.keys import NAME_PROPERTY, instancer_of
 from scene_ops.receivers import read_floats
 
 MADE = ("modifiers[", "particle_systems[")  # how paths to what makes faces begin
@@ -71,11 +70,11 @@ def settle(task):
     """Bring the open scene into that form. Returns {key: {"object", "uv_index", "plain"}}."""
     entries = {request["key"]: Entry(task, request) for request in task.request["objects"]}
     with kept_settings():
-        shown = realize.collect(lambda key, instance: key in entries and not entries[key].can_stay(instance))
+        items = list(shown.collect(lambda key, instance: key in entries and not entries[key].can_stay(instance)))
     missing = sorted(key for key, entry in entries.items() if entry.object is None)
     if missing:
         raise Refusal(f"'{missing[0]}' was there when the scene was surveyed and is gone now")
-    plain = replace(shown)
+    plain = replace(items)
     for key in entries.keys() & plain.keys():
         entries[key].object, entries[key].alone = plain[key], True
     give_uvs(entries.values())
@@ -83,18 +82,22 @@ def settle(task):
                   "plain": key in plain} for key, entry in entries.items()}
 
 
-def replace(shown):
+def replace(items):
     """Returns what now stands for each, by key."""
-    in_place = [item for item in shown if not item.is_copy and item.original.type == "MESH"]
-    others = [item for item in shown if item not in in_place]
+    stand_ins.answer_instances(items)
+    in_place = [item for item in items if not item.is_copy and item.original.type == "MESH"]
+    others = [item for item in items if item not in in_place]
     instancers = {item.owner for item in others if item.is_copy} - {item.original for item in in_place}
     objects = {item.name: become_plain(item) for item in in_place}
     for owner in map(made_local, instancers):
         owner.hide_render = owner.type != "EMPTY"  # it was not shown itself, or gives way below
         stop_making(owner)
     for item in others:
-        ob = objects[item.name] = realize.make_object(item) if item.is_copy else take_over(item)
-        keep_key(ob, item.name, item.original.get(NAME_PROPERTY, item.plain_name))
+        ob = stand_ins.put(item) if item.is_copy else take_over(item)
+        if item.data:
+            objects[item.name] = ob
+            stand_ins.keep_key(ob, item.name, item.plain_name)
+    stand_ins.link_lights(others)
     return objects
 
 
@@ -104,10 +107,10 @@ def become_plain(item):
     stop_making(ob)
     item.data.name = ob.data.name
     ob.data = item.data
-    realize.give_materials(ob, item.materials)
+    stand_ins.give_materials(ob, item.materials)
     if ob.parent_type in ("ARMATURE", "LATTICE"):
         ob.parent_type = "OBJECT"  # these faces are deformed already
-    keep_key(ob, item.name, item.plain_name)
+    stand_ins.keep_key(ob, item.name, item.plain_name)
     return ob
 
 
@@ -126,7 +129,7 @@ def take_over(item):
     name, places = source.name, collections_of(source)
     leaving = family(source) if source.type == "META" else [source]
     source.name = "rnmbake source"  # stays in the file only where something still needs it
-    ob = realize.make_object(item)
+    ob = stand_ins.put(item)
     ob.name = name
     for collection in places:
         if collection != bpy.context.scene.collection:
@@ -172,15 +175,6 @@ def made_local(ob):
     return ob.make_local() if ob.library or ob.override_library else ob
 
 
-def keep_key(ob, key, plain_name):
-    """Surveys of the saved scene name the object, and choose it, as those of the user's own."""
-    if ob.name == key or ob.library:
-        return
-    ob[KEY_PROPERTY] = key
-    if not light_group(ob):  # those are looked up by name when they are baked
-        ob[NAME_PROPERTY] = plain_name
-
-
 def give_uvs(entries):
     """Objects that share a mesh go on sharing it where their UVs are the same."""
     sharing = {}
@@ -199,8 +193,8 @@ def give_uvs(entries):
 def hand(entry, mesh):
     if entry.object.data == mesh:
         return
-    plain_name = entry.object.name
+    plain_name = entry.object.get(NAME_PROPERTY, entry.object.name)
     entry.object = made_local(entry.object)
     entry.object.data = mesh
     if entry.alone:
-        keep_key(entry.object, entry.key, plain_name)
+        stand_ins.keep_key(entry.object, entry.key, plain_name)

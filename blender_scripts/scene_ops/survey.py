@@ -13,7 +13,7 @@ import bpy
 from core.task import Refusal
 from scene_ops.describe import describe_light, describe_material, describe_world
 from scene_ops.keys import LABEL_PROPERTY, NAME_PROPERTY, Keys, instancer_of, shown_surfaces
-from scene_ops.light_linking import light_group
+from scene_ops.light_linking import Choices
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
@@ -80,7 +80,7 @@ class Surveyor:
         self.meshes = MeshFile(task.path("survey.bin"))
         self.objects, self.lights, self.warnings = [], [], []
         self.material_names = set()
-        self._keys = Keys()
+        self._keys, self._choices = Keys(), Choices()
 
     def visit(self, depsgraph):
         for instance in depsgraph.object_instances:
@@ -114,7 +114,7 @@ class Surveyor:
             "mesh": self.meshes.add(ob.data),
             "matrix": matrix,
             "slots": slots,
-            "light_group": light_group(original),
+            "light_group": self._choices.light_group(original, instance.parent and instance.parent.original),
             "visible_to_camera": bool(ob.visible_camera),
         })
 

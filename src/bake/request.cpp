@@ -139,9 +139,7 @@ json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::
       joined.add(tile, context.targets[tile.target], layout.atlas.placements[i]);
     }
     joined.write(out, size);
-    const Tile& first = context.plan.tiles[layout.tiles[members.front()]];
-    const std::string& like = context.survey.objects[context.targets[first.target].object].name;
-    groups.push_back({{"corners", joined.count()}, {"like", group.empty() ? "" : like}});
+    groups.push_back({{"corners", joined.count()}, {"light_group", group}});
   }
   out.close();
   return {{"width", size.width},          {"height", size.height}, {"arrays", arrays},

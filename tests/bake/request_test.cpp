@@ -62,9 +62,9 @@ TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   const auto& atlas = request.json["atlases"][0];
   ASSERT_EQ(atlas.at("groups").size(), 2U);
   EXPECT_EQ(atlas["groups"][0].at("corners"), 2 * 4 * 3);
-  EXPECT_EQ(atlas["groups"][0].at("like"), "");
+  EXPECT_EQ(atlas["groups"][0].at("light_group"), "");
   EXPECT_EQ(atlas["groups"][1].at("corners"), 4 * 3);
-  EXPECT_EQ(atlas["groups"][1].at("like"), "lit");
+  EXPECT_EQ(atlas["groups"][1].at("light_group"), "lamps");
   std::int64_t texels = 0;
   for (const Tile& tile : plan_.tiles) texels += std::int64_t(tile.size.width) * tile.size.height;
   EXPECT_EQ(atlas.at("covered_texels"), texels);
