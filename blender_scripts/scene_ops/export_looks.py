@@ -4,10 +4,9 @@ from array import array
 
 import bpy
 
-from scene_ops.describe_nodes import active_output
 from scene_ops.export_notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV, OUTSIDE
 from scene_ops.keys import LABEL_PROPERTY
-from scene_ops.lambert_materials import UV_ATTRIBUTE
+from scene_ops.lambert_materials import UV_ATTRIBUTE, shaders_of
 
 UNLIT = [0.0, 0.0, 0.0]
 LARGEST_NORMAL_MAP = 2048
@@ -89,18 +88,6 @@ class Looks:
     def write_pictures(self):
         """Entries of all pictures; the pixels go into the survey's file."""
         return [write_picture(self._meshes, image, side) for image, side in zip(self._images, self._sides)]
-
-
-def shaders_of(material):
-    """The one to three that lambert_materials.make_lambert adds up."""
-    shaders, work = [], [active_output(material).inputs["Surface"]]
-    while work:
-        source = work.pop().links[0].from_node
-        if source.type == "ADD_SHADER":
-            work += source.inputs
-        else:
-            shaders.append(source)
-    return shaders
 
 
 def read_color(shader):

@@ -10,9 +10,10 @@ import bpy
 
 from scene_ops.describe import bends_normals, describe_material
 from scene_ops.describe_nodes import active_output, constant, reachable_nodes
+from scene_ops.keys import CAMERA_PROPERTY
 
-OUTSIDE, NORMAL_IMAGE, NORMAL_UV, NORMAL_STRENGTH, CAMERA = (
-    "rnmbake outside", "rnmbake normal map", "rnmbake normal uv", "rnmbake normal strength", "rnmbake camera")
+OUTSIDE, NORMAL_IMAGE, NORMAL_UV, NORMAL_STRENGTH = (
+    "rnmbake outside", "rnmbake normal map", "rnmbake normal uv", "rnmbake normal strength")
 RENDER_LAYER = ""  # of NormalMap::uv_layer in scene/exchange.h
 
 
@@ -90,12 +91,12 @@ def remember_camera(scene):
     ob = scene.camera if is_plain_camera(scene.camera) else next(filter(is_plain_camera, scene.objects), None)
     why = "no camera is the active one" if scene.camera is None else f"the active one, '{scene.camera.name}', is no plain one"
     note = f"camera '{ob.name}': views look through it, since {why}" if ob != scene.camera and ob else ""
-    scene[CAMERA] = json.dumps({"camera": describe_camera(scene, ob) if ob else None, "note": note})
+    scene[CAMERA_PROPERTY] = json.dumps({"camera": describe_camera(scene, ob) if ob else None, "note": note})
 
 
 def remembered_camera(scene):
     """(Camera of scene/exchange.h, None for a scene without a plain one; what to say of the choice, or "")."""
-    known = json.loads(scene.get(CAMERA, '{"camera": null, "note": ""}'))
+    known = json.loads(scene.get(CAMERA_PROPERTY, '{"camera": null, "note": ""}'))
     return known["camera"], known["note"]
 
 

@@ -7,9 +7,9 @@ from array import array
 
 import bpy
 
+from core.arrays import read_floats
 from scene_ops import light_linking
 from scene_ops.plain_material import new_diffuse
-from scene_ops.receivers import read_floats
 
 GRAZING_SINE = 1e-6  # as in src/scene/surface.h
 UP = "rnmbake up"

@@ -3,11 +3,11 @@ its own materials get that vector as a flat tangent-space normal map. Nothing is
 """
 import bpy
 
+from core.arrays import read_floats
 from core.stopwatch import Stopwatch
 from core.task import Refusal
 from scene_ops import cycles, parts, realize
 from scene_ops.plain_material import NO_MATERIAL, make_diffuse, new_diffuse
-from scene_ops.receivers import read_floats
 
 
 def bake_targets(task, scene):

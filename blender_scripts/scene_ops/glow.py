@@ -13,7 +13,7 @@ from array import array
 import bpy
 
 from scene_ops.describe import describe_material
-from scene_ops.survey import material_name
+from scene_ops.keys import material_name
 
 LARGE = 0.25  # of the area of everything that is rendered
 

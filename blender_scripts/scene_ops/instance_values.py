@@ -6,7 +6,7 @@ ours. The number of other objects comes from their name, which stays.
 import bpy
 
 from scene_ops.keys import instancer_of
-from scene_ops.survey import with_render_depsgraph
+from scene_ops.render_depsgraph import with_render_depsgraph
 
 # What nodes ask of an instance, by the output that says it.
 RANDOM, GENERATED, UV = "rnmbake random", "rnmbake instancer generated", "rnmbake instancer uv"

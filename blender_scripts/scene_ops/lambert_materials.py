@@ -3,6 +3,7 @@ import bpy
 
 from scene_ops import instance_values, light_paths
 from scene_ops.describe import describe_material
+from scene_ops.describe_nodes import active_output
 from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
 from scene_ops.plain_material import NO_MATERIAL, empty_tree, make_clear, make_diffuse
@@ -180,3 +181,15 @@ def stand_in(source, color, emission, transmittance=BLACK, peak=1.0):
     source.notes.write_to(material)
     make_lambert(material, color, emission, transmittance, peak)
     return material
+
+
+def shaders_of(material):
+    """The one to three that make_lambert adds up."""
+    shaders, work = [], [active_output(material).inputs["Surface"]]
+    while work:
+        source = work.pop().links[0].from_node
+        if source.type == "ADD_SHADER":
+            work += source.inputs
+        else:
+            shaders.append(source)
+    return shaders

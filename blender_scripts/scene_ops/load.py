@@ -7,7 +7,7 @@ import bpy
 from core.task import INVALID_INPUT, Refusal
 from scene_ops import untrusted
 from scene_ops.caches import missing_caches
-from scene_ops.export_notes import CAMERA
+from scene_ops.keys import CAMERA_PROPERTY
 from scene_ops.neutral import neutralise
 from scene_ops.pictures import picture_faults
 
@@ -36,7 +36,7 @@ def open_to_measure(task):
 def scene_warnings():
     """What the user should know of the open scene before anything is done with it."""
     scene = bpy.context.scene
-    looked_at_before = CAMERA in scene  # lambert_entry.py made it, and has said what was wrong with the pictures
+    looked_at_before = CAMERA_PROPERTY in scene  # lambert_entry.py made it, and has said what was wrong with the pictures
     return import_notes(scene) + ([] if looked_at_before else [*picture_faults()]) + [*missing_caches()]
 
 

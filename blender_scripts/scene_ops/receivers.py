@@ -7,14 +7,9 @@ from array import array
 
 import bpy
 
+from core.arrays import read_floats
 from scene_ops import light_linking
 from scene_ops.plain_material import new_diffuse
-
-
-def read_floats(stream, count):
-    values = array("f")
-    values.fromfile(stream, count)
-    return values
 
 
 def build_mesh(name, stream, corners):

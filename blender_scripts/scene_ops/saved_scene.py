@@ -8,11 +8,11 @@ from array import array
 
 import bpy
 
+from core.arrays import read_floats
 from core.task import Refusal
 from scene_ops import realize, shown, stand_ins, uv_order
 from scene_ops.kept_settings import kept_settings
 from scene_ops.keys import NAME_PROPERTY, instancer_of
-from scene_ops.receivers import read_floats
 
 MADE = ("modifiers[", "particle_systems[")  # how paths to what makes faces begin
 

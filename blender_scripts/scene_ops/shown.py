@@ -5,7 +5,7 @@ from scene_ops import light_linking
 from scene_ops.instance_values import InstanceValues
 from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, shown_surfaces
 from scene_ops.mesh_copy import copy_mesh
-from scene_ops.survey import with_render_depsgraph
+from scene_ops.render_depsgraph import with_render_depsgraph
 
 # What Cycles reads of an object beside its geometry; owners and names differ between versions.
 FLAGS = ("pass_index", "color", "shadow_terminator_normal_offset", "shadow_terminator_geometry_offset",

@@ -1,9 +1,4 @@
-"""What Blender would render, as plain data: docs/survey-format.md.
-
-Render visibility, render levels of modifiers and the instances of a final render exist only in the
-dependency graph that Blender builds for a render engine. So the survey is a render engine: one tiny render
-in which every object is read and not a pixel drawn.
-"""
+"""What Blender would render, as plain data: docs/survey-format.md."""
 import json
 import math
 import sys
@@ -12,61 +7,12 @@ import bpy
 
 from core.task import Refusal
 from scene_ops.describe import describe_light, describe_material, describe_world
-from scene_ops.keys import LABEL_PROPERTY, NAME_PROPERTY, Keys, instancer_of, shown_surfaces
+from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, material_name, shown_surfaces
 from scene_ops.light_linking import Choices
+from scene_ops.render_depsgraph import with_render_depsgraph
 from scene_ops.survey_mesh import MeshFile
 
 FORMAT = 1
-
-
-class SurveyEngine(bpy.types.RenderEngine):
-    bl_idname = "RNMBAKE_SURVEY"
-    bl_label = "rnmbake survey"
-    bl_use_preview = False
-    visit = None
-    visited = False
-    error = None
-
-    def render(self, depsgraph):
-        cls = SurveyEngine
-        if cls.visited:
-            return
-        cls.visited = True
-        try:
-            cls.visit(depsgraph)
-        except BaseException as error:  # Blender prints what is raised in here and goes on
-            cls.error = error
-
-
-def with_render_depsgraph(visit):
-    """Call visit(depsgraph) with the graph of a final render of the current view layer."""
-    SurveyEngine.visit, SurveyEngine.visited, SurveyEngine.error = staticmethod(visit), False, None
-    if not SurveyEngine.is_registered:
-        bpy.utils.register_class(SurveyEngine)
-    prepare_render(bpy.context.scene)
-    bpy.ops.render.render()
-    if SurveyEngine.error:
-        raise SurveyEngine.error
-    if not SurveyEngine.visited:
-        raise RuntimeError("Blender rendered without calling the survey engine")
-
-
-def prepare_render(scene):
-    """The smallest render that reaches the engine, of the view layer that a bake would use."""
-    render = scene.render
-    render.engine = SurveyEngine.bl_idname
-    render.resolution_x = render.resolution_y = 8
-    render.resolution_percentage = 100
-    for name in ("use_compositing", "use_sequencer", "use_border", "use_freestyle", "use_multiview",
-                 "use_motion_blur", "use_persistent_data", "use_simplify", "use_single_layer"):
-        if hasattr(render, name):
-            setattr(render, name, False)
-    for layer in scene.view_layers:
-        layer.use = layer.name == bpy.context.view_layer.name
-    if scene.camera is None:
-        camera = bpy.data.objects.new("rnmbake survey", bpy.data.cameras.new("rnmbake survey"))
-        scene.collection.objects.link(camera)
-        scene.camera = camera
 
 
 FACELESS = ("VOLUME", "CURVES", "POINTCLOUD")  # objects that have no lightmap but may glow
@@ -121,14 +67,6 @@ class Surveyor:
 
 def slot_names(ob):
     return [material_name(slot.material) for slot in ob.material_slots]
-
-
-def material_name(material):
-    """Unique among the file's materials: the plain name, with the library's file for a linked one.
-
-    A lambert material goes by the name of the one that it stands for.
-    """
-    return material.original.get(LABEL_PROPERTY, material.original.name_full) if material else ""
 
 
 def survey_scene(task, surveyor=None):
