@@ -2,7 +2,7 @@
 
     blender -b SCENE --python bake_entry.py -- request.json
 
-Request: "scene" (see scene_ops/load.py), "cycles" (see scene_ops/cycles.py), "recipe", and either
+Request: "scene" (see opening/load.py), "cycles" (see scene_ops/cycles.py), "recipe", and either
 "atlases" (receiver) or "targets" (flat-normal-map). Each bake is written as raw floats beside the request.
 """
 import os
@@ -14,7 +14,9 @@ import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
-from scene_ops import cycles, displacement, fences, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
+from bake import fences, flat_normal_map, glow, own_shadow, receivers  # noqa: E402
+from opening import load  # noqa: E402
+from scene_ops import cycles, displacement  # noqa: E402
 
 
 def main(task):

@@ -17,7 +17,8 @@ from mathutils import Vector  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.arrays import read_floats  # noqa: E402
-from scene_ops import cycles, receivers  # noqa: E402
+from bake import receivers  # noqa: E402
+from scene_ops import cycles  # noqa: E402
 from scene_ops.plain_material import empty_tree, new_diffuse  # noqa: E402
 
 

@@ -6,7 +6,9 @@ import bpy
 from core.arrays import read_floats
 from core.stopwatch import Stopwatch
 from core.task import Refusal
-from scene_ops import cycles, parts, realize
+from bake import parts
+from objects import realize
+from scene_ops import cycles
 from scene_ops.plain_material import NO_MATERIAL, make_diffuse, new_diffuse
 
 

@@ -4,9 +4,9 @@ from array import array
 
 import bpy
 
-from scene_ops.export_notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV, OUTSIDE
+from lambert.materials import UV_ATTRIBUTE, shaders_of
+from lambert.notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV, OUTSIDE
 from scene_ops.keys import LABEL_PROPERTY
-from scene_ops.lambert_materials import UV_ATTRIBUTE, shaders_of
 
 UNLIT = [0.0, 0.0, 0.0]
 LARGEST_NORMAL_MAP = 2048

@@ -3,10 +3,10 @@ import json
 
 import bpy
 
-from scene_ops import export_world
-from scene_ops.export_looks import Looks, outside_of
-from scene_ops.export_notes import OUTSIDE, remembered_camera
-from scene_ops.survey import Surveyor
+from export.looks import Looks, outside_of
+from export.world import describe as describe_world
+from lambert.notes import OUTSIDE, remembered_camera
+from survey.surveyor import Surveyor
 
 
 def gives_no_light(ob):
@@ -56,7 +56,7 @@ class ExportSurveyor(Surveyor):
         for light in self.lights:
             self.tell(f"light '{light['name']}'", (), light["outside_model"])
         pictures = self.looks.write_pictures()
-        world, picture, what = export_world.describe(self.task, scene, self.meshes)
+        world, picture, what = describe_world(self.task, scene, self.meshes)
         if picture:
             world["picture"] = len(pictures)
             pictures.append(picture)

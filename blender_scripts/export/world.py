@@ -8,10 +8,10 @@ import os
 
 import bpy
 
+from export.looks import read_colors
 from scene_ops import light_paths
 from scene_ops.describe import NO_LIMIT, describe_world
 from scene_ops.describe_nodes import reachable_nodes, tree_source
-from scene_ops.export_looks import read_colors
 
 WIDTH = 2048  # across the horizon: three texels for a sun of half a degree
 HEIGHT = WIDTH // 2

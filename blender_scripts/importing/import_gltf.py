@@ -9,8 +9,8 @@ from core.gltf_check import DEEPEST
 from core.gltf_file import BrokenGltf
 from core.gltf_open import open_gltf
 from core.task import ENVIRONMENT, Refusal
-from scene_ops import gltf_lamps, gltf_materials
-from scene_ops.importers import run_importer
+from importing import gltf_lamps, gltf_materials
+from importing.importers import run_importer
 
 PREPARED = "prepared.gltf"
 

@@ -5,9 +5,9 @@ import os
 import bpy
 
 from core.task import IO, UNSUPPORTED, Refusal
-from scene_ops.import_gltf import import_gltf
-from scene_ops.importers import run_importer
-from scene_ops.load import NOTES_PROPERTY
+from importing.import_gltf import import_gltf
+from importing.importers import run_importer
+from opening.load import NOTES_PROPERTY
 from scene_ops.saving import save_copy
 
 BLEND = "imported.blend"

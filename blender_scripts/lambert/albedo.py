@@ -11,12 +11,11 @@ import bpy
 from mathutils import Vector
 
 from core.task import Refusal
-from scene_ops import lambert_uv
-from scene_ops.instance_values import RANDOM
-from scene_ops.lambert_bench import bench, new_image
-from scene_ops.lambert_materials import BLACK, Source, picture, stand_in
-from scene_ops.lambert_pixels import (brightness, cut, farthest_from_black, keep_if_bright, left_beside,
-                                      read_pixels)
+from lambert import albedo_uv
+from lambert.materials import BLACK, Source, picture, stand_in
+from lambert.pixels import brightness, cut, farthest_from_black, keep_if_bright, left_beside, read_pixels
+from objects.instance_values import RANDOM
+from scene_ops.bench import bench, new_image
 
 CELL = 4  # texels across the square of a uniform material
 MARGIN = 8  # texels around charts: they also colour triangles that hold no texel's centre
@@ -156,7 +155,7 @@ def choose_density(groups, surfaces):
     """Texels per unit: the same for all, and less where the budget asks for it."""
     density = TEXELS_ACROSS / max(diagonal(surfaces), 1e-9)
     for group in groups:
-        group.area = lambert_uv.world_area(group.mesh, group.first.matrix)
+        group.area = albedo_uv.world_area(group.mesh, group.first.matrix)
     for _ in range(64):
         if sum(choose_side(group, density, FILLED) ** 2 for group in groups) <= BUDGET:
             break
@@ -178,14 +177,14 @@ def diagonal(surfaces):
 def choose_uv(stand, group, density, unwrapped):
     """Find or make UVs; meshes that several groups share are unwrapped once. Returns the picture's size."""
     mesh = group.mesh
-    group.layer = lambert_uv.own_layer(mesh)
+    group.layer = albedo_uv.own_layer(mesh)
     if group.layer is None:
         if mesh not in unwrapped:
             side = choose_side(group, density, FILLED)
-            unwrapped[mesh] = lambert_uv.unwrap(stand, mesh, group.first.matrix, side)
+            unwrapped[mesh] = albedo_uv.unwrap(stand, mesh, group.first.matrix, side)
         group.uv = unwrapped[mesh]
-    uv = group.uv or lambert_uv.read_uv(mesh.uv_layers[group.layer])
-    filled = min(max(lambert_uv.filled(mesh, uv), FILLED / 4), 1)  # at most twice the guess
+    uv = group.uv or albedo_uv.read_uv(mesh.uv_layers[group.layer])
+    filled = min(max(albedo_uv.filled(mesh, uv), FILLED / 4), 1)  # at most twice the guess
     return choose_side(group, density, filled)
 
 
@@ -214,7 +213,7 @@ def settle_by_bake(stand, group, side):
         image.alpha_mode = "NONE"
         image.pack()
     if group.uv:
-        lambert_uv.keep_uv(group.mesh, group.uv)
+        albedo_uv.keep_uv(group.mesh, group.uv)
     color = picture(albedo, group.layer, brightest > 1.0001)
     peak = farthest_from_black(read_pixels(emission)) if emission else 1.0
     glow = picture(emission, group.layer, peak=peak) if emission else BLACK
@@ -229,7 +228,7 @@ def settle_by_bake(stand, group, side):
 def prepared(group):
     """The group's first object, with its own materials, a mesh to bake to, and shown to the camera."""
     ob = group.first.object
-    mesh = lambert_uv.mesh_to_bake(group.mesh, group.layer, group.uv)
+    mesh = albedo_uv.mesh_to_bake(group.mesh, group.layer, group.uv)
     ob.data = mesh
     give_materials(ob, [source.bakeable for source in group.sources])
     shown = {"visible_camera": True, "is_holdout": False, "is_shadow_catcher": False}

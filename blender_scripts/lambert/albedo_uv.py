@@ -7,7 +7,7 @@ import bpy
 from mathutils import Matrix
 
 from core.task import Refusal
-from scene_ops.lambert_materials import UV_ATTRIBUTE
+from lambert.materials import UV_ATTRIBUTE
 
 LIGHTMAP_NAMES = ("Lightmap", "UV2", "lightmap")  # as src/bake/targets.cpp looks for them
 MARGIN = 3  # texels between charts

@@ -1,5 +1,5 @@
 """All that a render of the scene shows, for a lambert scene: surfaces, lights, and what has no surface."""
-from scene_ops import shown
+from objects import shown
 
 
 class Scene:

@@ -1,7 +1,8 @@
 """A flat scene: one plain object for each thing that a render shows, under the name that it had."""
 import bpy
 
-from scene_ops import light_linking, stand_ins
+from objects import stand_ins
+from scene_ops import light_linking
 
 # These use objects without depending on where they are.
 CONTAINERS = (bpy.types.Collection, bpy.types.Scene, bpy.types.Screen, bpy.types.WorkSpace, bpy.types.WindowManager)

@@ -1,10 +1,11 @@
 """Which materials look the same everywhere, which ones emit, and the plain ones that take their place."""
 import bpy
 
-from scene_ops import instance_values, light_paths
+from lambert.notes import MaterialNotes
+from objects import instance_values
+from scene_ops import light_paths
 from scene_ops.describe import describe_material
 from scene_ops.describe_nodes import active_output
-from scene_ops.export_notes import MaterialNotes
 from scene_ops.keys import LABEL_PROPERTY
 from scene_ops.plain_material import NO_MATERIAL, empty_tree, make_clear, make_diffuse
 from scene_ops.see_through import glow_where_transparent, is_volume_alone, lets_light_through, surface_nodes

@@ -2,7 +2,7 @@
 import bpy
 
 from core.task import Refusal
-from scene_ops import shown, stand_ins
+from objects import shown, stand_ins
 
 
 def targets_as_objects(targets):

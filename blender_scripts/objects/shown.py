@@ -1,10 +1,10 @@
 """What a render shows, taken out of the dependency graph: meshes, materials, places, and all that Cycles reads beside."""
 import bpy
 
+from objects.instance_values import InstanceValues
+from objects.mesh_copy import copy_mesh
 from scene_ops import light_linking
-from scene_ops.instance_values import InstanceValues
 from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, shown_surfaces
-from scene_ops.mesh_copy import copy_mesh
 from scene_ops.render_depsgraph import with_render_depsgraph
 
 # What Cycles reads of an object beside its geometry; owners and names differ between versions.
@@ -34,7 +34,7 @@ class Shown:
         self.chosen = light_linking.chosen_by(self.original)
         self.memberships = {membership for role in light_linking.ROLES
                             for membership in choices.memberships(role, self.original, self.owner)}
-        self.values = {}  # scene_ops/instance_values.py
+        self.values = {}  # objects/instance_values.py
         self.data = None  # a mesh or a light; None for a copy of the original
         self.materials = []
         self.object = None  # what stands for it

@@ -1,8 +1,9 @@
-"""Plain objects for what a render shows (scene_ops/shown.py): nothing else makes or changes them."""
+"""Plain objects for what a render shows (objects/shown.py): nothing else makes or changes them."""
 import bpy
 from mathutils import Matrix
 
-from scene_ops import instance_values, light_linking
+from objects import instance_values
+from scene_ops import light_linking
 from scene_ops.keys import KEY_PROPERTY, LABEL_PROPERTY, NAME_PROPERTY
 from scene_ops.names import fitting
 

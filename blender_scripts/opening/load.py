@@ -5,11 +5,11 @@ import os
 import bpy
 
 from core.task import INVALID_INPUT, Refusal
-from scene_ops import untrusted
-from scene_ops.caches import missing_caches
+from opening import untrusted
+from opening.caches import missing_caches
+from opening.pictures import picture_faults
 from scene_ops.keys import CAMERA_PROPERTY
 from scene_ops.neutral import neutralise
-from scene_ops.pictures import picture_faults
 
 # On a scene that was imported (import_scene.py): a JSON list of what its file says and nobody follows.
 NOTES_PROPERTY = "rnmbake notes"

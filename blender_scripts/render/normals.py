@@ -1,8 +1,8 @@
 """Gives lambert materials the normal maps back that the lambert step noted on them."""
 import bpy
 
-from scene_ops.export_notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV
-from scene_ops.lambert_materials import shaders_of
+from lambert.materials import shaders_of
+from lambert.notes import NORMAL_IMAGE, NORMAL_STRENGTH, NORMAL_UV
 
 
 def put_back():

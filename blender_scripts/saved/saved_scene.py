@@ -10,8 +10,9 @@ import bpy
 
 from core.arrays import read_floats
 from core.task import Refusal
-from scene_ops import realize, shown, stand_ins, uv_order
-from scene_ops.kept_settings import kept_settings
+from objects import realize, shown, stand_ins
+from saved import uv_order
+from saved.kept_settings import kept_settings
 from scene_ops.keys import NAME_PROPERTY, instancer_of
 
 MADE = ("modifiers[", "particle_systems[")  # how paths to what makes faces begin

@@ -10,7 +10,7 @@ from scene_ops.describe import describe_light, describe_material, describe_world
 from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, material_name, shown_surfaces
 from scene_ops.light_linking import Choices
 from scene_ops.render_depsgraph import with_render_depsgraph
-from scene_ops.survey_mesh import MeshFile
+from survey.mesh_file import MeshFile
 
 FORMAT = 1
 

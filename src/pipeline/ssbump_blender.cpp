@@ -78,7 +78,7 @@ class PointReceivers {
     }
   }
 
-  /// All positions, all normals, all UVs, as scene_ops/receivers.py wants them. Returns the corners.
+  /// All positions, all normals, all UVs, as bake/receivers.py wants them. Returns the corners.
   std::size_t write(const fs::path& file) const {
     RawFile out(file);
     out.write(positions_);

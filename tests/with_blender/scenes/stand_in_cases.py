@@ -10,7 +10,8 @@ import tempfile
 import bpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../blender_scripts"))
-from scene_ops import lambert_collect, lambert_scene, realize, shown, stand_ins  # noqa: E402
+from lambert import collect, flat_scene  # noqa: E402
+from objects import realize, shown, stand_ins  # noqa: E402
 
 WIDTH = 4.0  # of a cell, which is three pixels wide; what it shows lies around its middle
 HAS_LINKING = bpy.app.version >= (4, 0)
@@ -250,8 +251,8 @@ def realized():
 
 
 def flat():
-    found = lambert_collect.Scene()
-    lambert_scene.rebuild(found)
+    found = collect.Scene()
+    flat_scene.rebuild(found)
     stand_ins.answer_instances(found.surfaces)
     for surface in found.surfaces:
         stand_ins.give_materials(surface.object, surface.materials)
