@@ -21,7 +21,7 @@ constexpr std::size_t texels_at_once = 1 << 17;  // of targets that are worked o
 
 /// A block of texels, and all that is known of it.
 struct Block {
-  std::size_t first = 0, count = 0;  // in Job::texels_
+  std::size_t first = 0, count = 0;  // in Sites::texels()
   int batch_samples = 1, batches = 0;
   std::unique_ptr<BatchTally> tally;
   std::int64_t rays = 0;
@@ -40,14 +40,13 @@ class Job {
         options_(options),
         sites_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
     if (options.faults.any()) own_.emplace(scene, target);
-    for (const TexelSite& site : sites_.texels()) (is_black(site) ? black_ : texels_).push_back(site);
-    for (std::size_t first = 0; first < texels_.size(); first += BlockGatherer::texels) {
-      blocks_.push_back({first, std::min(BlockGatherer::texels, texels_.size() - first), 1, 0, {}, 0, {}});
+    for (std::size_t first = 0; first < texels(); first += BlockGatherer::texels) {
+      blocks_.push_back({first, std::min(BlockGatherer::texels, texels() - first), 1, 0, {}, 0, {}});
     }
   }
 
   [[nodiscard]] std::size_t index() const { return index_; }
-  [[nodiscard]] std::size_t texels() const { return texels_.size(); }  // that light is gathered at
+  [[nodiscard]] std::size_t texels() const { return sites_.texels().size(); }
   std::vector<Block>& blocks() { return blocks_; }
 
   /// Takes a block as far as its plan says. `stage` separates the noise of the pilot from what counts.
@@ -56,7 +55,7 @@ class Job {
     BlockGatherer gatherer(scene_, sites_, options_, own_ ? &*own_ : nullptr);
     if (!block.tally) block.tally = std::make_unique<BatchTally>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
-    const std::span texels(&texels_[block.first], block.count);
+    const std::span texels(&sites_.texels()[block.first], block.count);
     const double share = 1.0 / std::max(1, block.batches - block.tally->batches());
     while (block.tally->batches() < block.batches) {
       const auto number = static_cast<std::uint64_t>(block.tally->batches());
@@ -118,10 +117,6 @@ class Job {
       direction.standard_error = image(3);
     }
     for (int c = 0; c < options_.sh_order * options_.sh_order; ++c) out.sh.push_back(image(3));
-    for (const TexelSite& site : black_) {
-      out.coverage.texel(site.x, site.y)[0] = 1;
-      out.validity.texel(site.x, site.y)[0] = 1;
-    }
     for (const Block& block : blocks_) write(block, out);
     for (GatheredDirection& direction : out.directions) {
       for (double& error : direction.mean_error) error = std::sqrt(error);
@@ -130,11 +125,6 @@ class Job {
   }
 
  private:
-  /// Of a surface without a diffuse closure the recipe bakes nothing.
-  [[nodiscard]] bool is_black(const TexelSite& site) const {
-    return options_.faults.no_diffuse && own_->is_black(site.triangle);
-  }
-
   void write(const Block& block, Gathered& out) const {
     const auto put = [](FloatImage& image, const TexelSite& site, const Vec3& value) {
       std::copy_n(&value.x, 3, image.texel(site.x, site.y).begin());
@@ -142,7 +132,7 @@ class Job {
     out.paths += block.samples() * std::int64_t(block.count);
     out.rays += block.rays;
     for (std::size_t i = 0; i < block.count; ++i) {
-      const TexelSite& site = texels_[block.first + i];
+      const TexelSite& site = sites_.texels()[block.first + i];
       out.coverage.texel(site.x, site.y)[0] = 1;
       out.validity.texel(site.x, site.y)[0] =
           1 - static_cast<float>(double(block.back_faces[i]) / double(block.samples()));
@@ -166,7 +156,7 @@ class Job {
     }
   }
 
-  [[nodiscard]] double covered() const { return std::max(1.0, double(sites_.texels().size())); }
+  [[nodiscard]] double covered() const { return std::max(1.0, double(texels())); }
 
   [[nodiscard]] std::vector<double> direction_means() const {
     std::vector<double> means(options_.directions.size());
@@ -208,7 +198,6 @@ class Job {
   const GatherOptions& options_;
   Sites sites_;
   std::optional<OwnSurface> own_;
-  std::vector<TexelSite> texels_, black_;
   std::vector<Block> blocks_;
 };
 
