@@ -26,7 +26,7 @@ def main(task):
     scene = bpy.context.scene
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()
-        glow.leave_to_chance(set(task.request["left_to_chance"]))
+        glow.hide_from_own_receivers(task.request["glow_heights"])
         own_shadow.block_light_from_below(scene)
         fences.build(task, scene)
         return bake_receivers(task, scene)

@@ -106,17 +106,6 @@ json base_request(const Dispatch& dispatch, const Plan& plan, const char* recipe
   return {{"recipe", recipe}, {"cycles", to_json(plan.units[dispatch.units.front()].cycles)}};
 }
 
-/// Of all targets of the dispatch, where it has to care for them.
-std::set<std::string> glowing_materials(const BakeContext& context, const Dispatch& dispatch) {
-  std::set<std::string> names;
-  for (const std::size_t u : dispatch.units) {
-    const Unit& unit = context.plan.units[u];
-    const auto& glowing = context.targets[unit.target].glowing;
-    if (unit.cycles.glowing) names.insert(glowing.begin(), glowing.end());
-  }
-  return names;
-}
-
 /// Writes one atlas; receivers that share a light-linking group are one mesh.
 json write_atlas(const BakeContext& context, const DispatchLayout& layout, std::size_t atlas,
                  const fs::path& folder) {
@@ -244,7 +233,7 @@ BakeRequest receiver_request(const BakeContext& context, const Dispatch& dispatc
                              const fs::path& folder) {
   BakeRequest request{base_request(dispatch, context.plan, "receiver"),
                       {tiles_of(dispatch, context.plan), {}}};
-  request.json["left_to_chance"] = glowing_materials(context, dispatch);
+  request.json["glow_heights"] = context.plan.glow_heights;
   request.json["fences"] = write_fences(dispatch, context.plan, folder);
   std::vector<TileSize> sizes;
   for (const std::size_t tile : request.layout.tiles) sizes.push_back(context.plan.tiles[tile].size);

@@ -110,6 +110,24 @@ TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
   for (std::size_t i = 12; i < 24; ++i) EXPECT_EQ(values[i], i % 3 == 0 ? 1 : 0);
 }
 
+TEST_F(Requests, OfReceiversSayHowHighTheyStandOverWhatGlows) {
+  survey_.meshes[0].polygon_slot = {5};  // past the last slot: Blender takes that
+  survey_.objects[0].slots = {"dull", "lamp"};
+  survey_.objects[1].slots = {"lamp"};
+  survey_.objects[2].slots = {"dull"};
+  survey_.materials["dull"] = {};
+  survey_.materials["lamp"].emissive = true;
+  Surface surface;
+  for (const float height : {1e-6F, 3e-6F, 2e-6F}) surface.triangles.emplace_back().height = height;
+  note_glow(plan_.glow_heights, survey_, 0, surface);
+  surface.triangles.resize(1);
+  note_glow(plan_.glow_heights, survey_, 1, surface);
+  note_glow(plan_.glow_heights, survey_, 2, surface);
+  add_all();
+  const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 1 << 20, folder_.path());
+  EXPECT_EQ(request.json.at("glow_heights"), nlohmann::json({{"lamp", 3e-6F}}));
+}
+
 TEST_F(Requests, ThatDoNotFitOneAtlasTakeSeveral) {
   add_all();
   const BakeRequest request = receiver_request(context(), plan_.dispatches[0], 200, folder_.path());
