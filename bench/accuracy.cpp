@@ -170,8 +170,6 @@ What `receiver` leaves, and why:
   within 0.81 degrees of its triangle's edge is turned into that edge's, up to 0.011; these scenes have no such case.
 - Where a ray starts at an edge between two triangles Cycles lifts it by up to 256 float steps of its coordinates. Far
   from the origin (2 mm at 80 m) light from just below a face slips past its open rim there.
-- Bases of texels that lie ON a glowing face take in light that leaves right below them: 5 to 12 % of what a lone square
-  lamp emits (flat is exact). Materials that glow over a quarter of the scene's area are exact (the furnace).
 - Below the horizon faces are cut into small pieces and samples beyond a piece's edge fold back into it: an error
   that falls with the texel's size (here 64 x 64).
 )";

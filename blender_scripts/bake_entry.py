@@ -2,7 +2,7 @@
 
     blender -b SCENE --python bake_entry.py -- request.json
 
-Request: "scene" (see scene_ops/load.py), "cycles" (see scene_ops/cycles.py), "recipe", and either
+Request: "scene" (see opening/load.py), "cycles" (see scene_ops/cycles.py), "recipe", and either
 "atlases" (receiver) or "targets" (flat-normal-map). Each bake is written as raw floats beside the request.
 """
 import os
@@ -14,7 +14,9 @@ import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
-from scene_ops import cycles, displacement, fences, flat_normal_map, glow, load, own_shadow, receivers  # noqa: E402
+from bake import fences, flat_normal_map, glow, own_shadow, receivers  # noqa: E402
+from opening import load  # noqa: E402
+from scene_ops import cycles, displacement  # noqa: E402
 
 
 def main(task):
@@ -24,7 +26,7 @@ def main(task):
     scene = bpy.context.scene
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()
-        glow.leave_to_chance(set(task.request["left_to_chance"]))
+        glow.hide_from_own_receivers(task.request["glow_heights"])
         own_shadow.block_light_from_below(scene)
         fences.build(task, scene)
         return bake_receivers(task, scene)
@@ -60,7 +62,7 @@ def bake_atlas(task, scene, atlas, tell):
             begun, ended = number / len(atlas["groups"]), (number + 1) / len(atlas["groups"])
             tell("build", begun)
             mesh = receivers.build_mesh("rnmbake receiver", stream, group["corners"])
-            receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["like"])
+            receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["light_group"])
             prepare += clock.lap()
             tell("bake", begun, ended, samples)
             cycles.bake_diffuse(scene, receiver, clear=number == 0)

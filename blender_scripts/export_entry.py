@@ -8,9 +8,9 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
-from scene_ops.export_survey import ExportSurveyor  # noqa: E402
-from scene_ops.load import open_to_measure  # noqa: E402
-from scene_ops.survey import survey_scene, write_survey  # noqa: E402
+from export.surveyor import ExportSurveyor  # noqa: E402
+from opening.load import open_to_measure  # noqa: E402
+from survey.surveyor import survey_scene, write_survey  # noqa: E402
 
 
 def main(task):

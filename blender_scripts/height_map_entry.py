@@ -16,7 +16,9 @@ import bpy  # noqa: E402
 from mathutils import Vector  # noqa: E402
 
 from core import task as core_task  # noqa: E402
-from scene_ops import cycles, receivers  # noqa: E402
+from core.arrays import read_floats  # noqa: E402
+from bake import receivers  # noqa: E402
+from scene_ops import cycles  # noqa: E402
 from scene_ops.plain_material import empty_tree, new_diffuse  # noqa: E402
 
 
@@ -94,7 +96,7 @@ def read_surface(task):
     mesh = bpy.data.meshes.new("rnmbake surface")
     corners = 3 * surface["triangles"]
     with open(task.path(surface["file"]), "rb") as stream:
-        positions = receivers.read_floats(stream, 3 * surface["vertices"])
+        positions = read_floats(stream, 3 * surface["vertices"])
         indices = array("i")
         indices.fromfile(stream, corners)
     mesh.vertices.add(surface["vertices"])

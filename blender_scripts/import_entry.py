@@ -5,7 +5,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
-from scene_ops.import_scene import import_scene  # noqa: E402
+from importing.import_scene import import_scene  # noqa: E402
 
 
 def main(task):

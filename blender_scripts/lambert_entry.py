@@ -12,8 +12,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
-from scene_ops import displacement, export_notes, lambert_bake, lambert_collect, lambert_scene  # noqa: E402
-from scene_ops.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
+from lambert import albedo, collect, flat_scene, notes  # noqa: E402
+from opening.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
+from scene_ops import displacement  # noqa: E402
 from scene_ops.saving import save_copy  # noqa: E402
 
 FILE = "lambert.blend"
@@ -22,15 +23,15 @@ FILE = "lambert.blend"
 def main(task):
     warnings = open_to_measure(task)
     warnings = scene_warnings() + warnings
-    export_notes.remember_camera(bpy.context.scene)
+    notes.remember_camera(bpy.context.scene)
     warnings += displacement.settle()
     task.progress("evaluate")
-    shown = lambert_collect.collect()
+    shown = collect.Scene()
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
-    lambert_scene.rebuild(shown)
-    warnings += shown.warnings + lambert_bake.replace_materials(task, shown.surfaces)
-    lambert_scene.drop_originals(shown)
-    bpy.context.scene[export_notes.OUTSIDE] = json.dumps(shown.outside)
+    flat_scene.rebuild(shown)
+    warnings += shown.warnings + albedo.replace_materials(task, shown.surfaces)
+    flat_scene.drop_originals(shown)
+    bpy.context.scene[notes.OUTSIDE] = json.dumps(shown.outside)
     # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
     save_copy(task.path(FILE), relative_remap=True, check_existing=False)
     return {"blend": FILE, "warnings": warnings}

@@ -2,7 +2,7 @@
 
     blender -b SCENE --python render_entry.py -- request.json
 
-Request: "scene" (see scene_ops/load.py), "cycles" (see scene_ops/cycles.py), "camera" (docs/rnmscene-format.md),
+Request: "scene" (see opening/load.py), "cycles" (see scene_ops/cycles.py), "camera" (docs/rnmscene-format.md),
 "pixel_shape" (width of a pixel over its height), "width", "height", "normal_maps" (whether lambert materials get
 theirs back) and "seeds". Answers with one linear EXR for each seed.
 """
@@ -14,17 +14,18 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
-from scene_ops import cycles, render_camera, render_normals  # noqa: E402
-from scene_ops.load import open_to_measure  # noqa: E402
+from opening.load import open_to_measure  # noqa: E402
+from render import camera, normals  # noqa: E402
+from scene_ops import cycles  # noqa: E402
 
 
 def main(task):
     open_to_measure(task)
     scene, request = bpy.context.scene, task.request
     if request["normal_maps"]:
-        render_normals.put_back()
-    render_camera.look_through(scene, request["camera"])
-    render_camera.size(scene, request["width"], request["height"], request["pixel_shape"])
+        normals.put_back()
+    camera.look_through(scene, request["camera"])
+    camera.size(scene, request["width"], request["height"], request["pixel_shape"])
     return {"pictures": [render(task, scene, number) for number in range(len(request["seeds"]))]}
 
 
@@ -34,7 +35,7 @@ def render(task, scene, number):
     cycles.apply_settings(scene, {**task.request["cycles"], "seed": seed})
     samples = cycles.samples_of_picture(scene, task.request["width"], task.request["height"])
     task.progress("render", f"seed {seed}", number, len(seeds), number + 1, samples)
-    render_camera.settle(scene)
+    camera.settle(scene)
     name = f"view{seed}.exr"
     scene.render.filepath = task.path(name)
     bpy.ops.render.render(write_still=True)

@@ -1,4 +1,4 @@
-"""Save a copy of the scene in which every object that has lightmaps holds their UVs (scene_ops/saved_scene.py).
+"""Save a copy of the scene in which every object that has lightmaps holds their UVs (saved/saved_scene.py).
 
 Request: "objects": [{"key", "uv_layer", "faces" (file), "uv_array" (file, of what was unwrapped)}], "imported":
 whether the user's scene is no .blend, "save_as": where to. That has to be the folder in which the file will stay:
@@ -12,7 +12,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
-from scene_ops import load, saved_scene, saving  # noqa: E402
+from opening import load  # noqa: E402
+from saved import saved_scene  # noqa: E402
+from scene_ops import saving  # noqa: E402
 
 
 def main(task):

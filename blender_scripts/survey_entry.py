@@ -5,9 +5,9 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from core.task import run  # noqa: E402
+from opening.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
 from scene_ops import displacement  # noqa: E402
-from scene_ops.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
-from scene_ops.survey import survey_scene, volume_warnings, write_survey  # noqa: E402
+from survey.surveyor import survey_scene, volume_warnings, write_survey  # noqa: E402
 
 
 def main(task):

@@ -10,7 +10,7 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../blender_scripts"))
 sys.dont_write_bytecode = True
 
-from scene_ops import receivers  # noqa: E402
+from bake import receivers  # noqa: E402
 
 
 def timed(function, spent):

@@ -87,8 +87,6 @@ def outside_of(node):
         yield from (what for name, what in OUTPUTS[node.type].items() if node.outputs[name].is_linked)
     elif node.type in CLOSURES:
         yield CLOSURES[node.type]
-    if getattr(node, "from_instancer", False):
-        yield "instancer coordinates"
     if node.type == "ATTRIBUTE" and node.attribute_type in ATTRIBUTES:
         yield ATTRIBUTES[node.attribute_type]
 

@@ -9,10 +9,10 @@ import bpy
 from mathutils import Vector
 
 from core.task import Refusal
+from scene_ops.bench import bench
 from scene_ops.describe_nodes import active_output
 from scene_ops.keys import shown_surfaces
-from scene_ops.lambert_bench import bench
-from scene_ops.survey import with_render_depsgraph
+from scene_ops.render_depsgraph import with_render_depsgraph
 
 ATTRIBUTE = "rnmbake displaced"
 

@@ -3,9 +3,10 @@ import bpy
 
 NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
 
-# On objects that stand for a surface of the user's scene (lambert_scene.py, saved_scene.py): its key and name there.
+# On objects that stand for a surface of the user's scene (stand_ins.py): its key and name there.
 KEY_PROPERTY, NAME_PROPERTY = "rnmbake key", "rnmbake name"
 LABEL_PROPERTY = "rnmbake material"  # on materials, likewise
+CAMERA_PROPERTY = "rnmbake camera"  # on lambert scenes: what the camera of the user's scene sees
 
 
 def shown_surfaces(depsgraph):
@@ -47,3 +48,11 @@ def instancer_of(instance):
     original = instance.object.original
     own_mesh = instance.parent.original == original and instance.persistent_id[1] == NO_ID
     return "" if own_mesh and original.type != "MESH" else instance.parent.original.name_full
+
+
+def material_name(material):
+    """Unique among the file's materials: the plain name, with the library's file for a linked one.
+
+    A lambert material goes by the name of the one that it stands for.
+    """
+    return material.original.get(LABEL_PROPERTY, material.original.name_full) if material else ""

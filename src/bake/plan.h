@@ -3,6 +3,7 @@
 
 #include "bake/atlas.h"
 #include "bake/fences.h"
+#include "bake/glow.h"
 #include "bake/receiver.h"
 #include "bake/targets.h"
 #include "config/bake_settings.h"
@@ -19,8 +20,6 @@ struct CyclesSettings {
   int samples = 256, bounces = 32, seed = 0;
   double clamp = 0;
   std::string device = "CPU";
-  bool glowing =
-      false;  // receivers on lamps: the light of their own materials is left to chance (docs/bake.md)
   bool operator==(const CyclesSettings&) const = default;
 };
 
@@ -50,6 +49,7 @@ struct Batch {
 struct Plan {
   std::vector<AtlasRect> rects;
   std::vector<std::vector<Fence>> fences;  // [targets], or none at all
+  GlowHeights glow_heights;                // of all targets
   std::vector<BakeTask> tasks;
   std::vector<Batch> batches;
 };

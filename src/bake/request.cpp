@@ -106,17 +106,6 @@ json base_request(const Batch& batch, const Plan& plan, const char* recipe) {
   return {{"recipe", recipe}, {"cycles", to_json(plan.tasks[batch.tasks.front()].cycles)}};
 }
 
-/// Of all targets of the dispatch, where it has to care for them.
-std::set<std::string> glowing_materials(const BakeContext& context, const Batch& batch) {
-  std::set<std::string> names;
-  for (const std::size_t u : batch.tasks) {
-    const BakeTask& task = context.plan.tasks[u];
-    const auto& glowing = context.targets[task.target].glowing;
-    if (task.cycles.glowing) names.insert(glowing.begin(), glowing.end());
-  }
-  return names;
-}
-
 /// Writes one atlas; receivers that share a light-linking group are one mesh.
 json write_atlas(const BakeContext& context, const BatchLayout& layout, std::size_t atlas,
                  const fs::path& folder) {
@@ -139,9 +128,7 @@ json write_atlas(const BakeContext& context, const BatchLayout& layout, std::siz
       joined.add(rect, context.targets[rect.target], layout.atlas.placements[i]);
     }
     joined.write(out, size);
-    const AtlasRect& first = context.plan.rects[layout.rects[members.front()]];
-    const std::string& like = context.survey.objects[context.targets[first.target].object].name;
-    groups.push_back({{"corners", joined.count()}, {"like", group.empty() ? "" : like}});
+    groups.push_back({{"corners", joined.count()}, {"light_group", group}});
   }
   out.close();
   return {{"width", size.width},          {"height", size.height}, {"arrays", arrays},
@@ -245,7 +232,7 @@ nlohmann::json to_json(const CyclesSettings& settings) {
 BakeRequest receiver_request(const BakeContext& context, const Batch& batch, std::int64_t max_pixels,
                              const fs::path& folder) {
   BakeRequest request{base_request(batch, context.plan, "receiver"), {rects_of(batch, context.plan), {}}};
-  request.json["left_to_chance"] = glowing_materials(context, batch);
+  request.json["glow_heights"] = context.plan.glow_heights;
   request.json["fences"] = write_fences(batch, context.plan, folder);
   std::vector<RectSize> sizes;
   for (const std::size_t rect : request.layout.rects) sizes.push_back(context.plan.rects[rect].size);

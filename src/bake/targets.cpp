@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <string_view>
 
 namespace rnmbake {
@@ -137,27 +136,6 @@ int choose_resolution(const ObjectSettings& settings, const Areas& areas) {
   if (settings.texels_per_unit <= 0) return wanted;
   const int lowest = (settings.min_resolution + 3) / 4 * 4;
   return std::clamp(wanted, lowest, std::max(lowest, settings.max_resolution / 4 * 4));
-}
-
-std::vector<std::string> glowing_materials(const SceneSurvey& survey, std::size_t object,
-                                           const std::vector<std::uint32_t>& triangles) {
-  const SceneObject& it = survey.objects[object];
-  const Mesh& mesh = survey.mesh_of(it);
-  double all = 0, glowing = 0;
-  std::set<std::string> names;
-  for (const std::uint32_t triangle : triangles) {
-    const double area = world_area(mesh, triangle, it.to_world);
-    all += area;
-    if (it.slots.empty()) continue;
-    const std::size_t slot =
-        std::min<std::size_t>(mesh.polygon_slot[mesh.triangle_polygon[triangle]], it.slots.size() - 1);
-    const auto material = survey.materials.find(it.slots[slot]);
-    if (material == survey.materials.end() || !material->second.emissive) continue;
-    glowing += area;
-    names.insert(it.slots[slot]);
-  }
-  if (!(glowing > all / 2)) return {};
-  return {names.begin(), names.end()};
 }
 
 std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,

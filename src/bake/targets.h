@@ -55,10 +55,6 @@ struct Part {
 [[nodiscard]] std::vector<Part> split_mesh(const Mesh& mesh, const std::vector<std::string>& slots,
                                            ObjectSettings::Split mode);
 
-/// The emitting materials of these triangles, if more than half of their area emits; else none.
-[[nodiscard]] std::vector<std::string> glowing_materials(const SceneSurvey& survey, std::size_t object,
-                                                         const std::vector<std::uint32_t>& triangles);
-
 using Uvs = std::shared_ptr<const std::vector<Vec2>>;  // one for each loop
 
 struct Target {
@@ -71,9 +67,8 @@ struct Target {
   bool unwrapped = false;
   bool flip_green = false;  // basis y points along falling v, for normal maps with Y down
   int width = 0, height = 0;
-  int wanted_side = 0;               // texels_per_unit's, before max_resolution
-  UvReport uv_report;                // at that size
-  std::vector<std::string> glowing;  // materials that emit, where most of the surface does
+  int wanted_side = 0;  // texels_per_unit's, before max_resolution
+  UvReport uv_report;   // at that size
 };
 
 /// A basis vector in the right-handed, Y-up frame of scene/tangents.h, whatever the target's green channel.

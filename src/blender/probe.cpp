@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "blender/real_blender.h"
+#include "blender/private_environment.h"
 #include "process/run.h"
 #include "process/stop.h"
 
@@ -77,25 +77,6 @@ BlenderInfo probe_version(const std::filesystem::path& executable) {
          info.version_text, oldest_blender.major, oldest_blender.minor);
   }
   return info;
-}
-
-void probe_devices(BlenderInfo& info, const ScriptFolder& scripts) {
-  const TempFolder folder;
-  Launch launch;
-  launch.entry = "probe_entry.py";
-  launch.folder = folder.path();
-  launch.request = nlohmann::json::object();
-  LaunchLimits limits;
-  limits.total_seconds = 2 * probe_limit_seconds;  // looking for GPUs may build kernels
-  const LaunchOutcome outcome = launch_blender(info, scripts, {}, launch, limits, {});
-  if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
-    fail(ExitCode::environment, "{} (Blender {}) does not run headless: {}; try another with --blender",
-         info.executable.string(), info.version_text, failure->message);
-  }
-  const nlohmann::json& result = std::get<Finished>(outcome).result;
-  info.devices = result.at("devices").get<std::vector<std::string>>();
-  info.has_numpy = result.at("numpy").get<bool>();
-  info.has_denoiser = result.at("denoiser").get<bool>();
 }
 
 }  // namespace rnmbake

@@ -1,11 +1,12 @@
 #include "blender/real_blender.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "blender/blend_header.h"
 #include "blender/launch_watch.h"
 #include "blender/outcome.h"
-#include "blender/probe.h"
+#include "blender/private_environment.h"
 #include "process/run.h"
 #include "process/tree.h"
 
@@ -16,6 +17,8 @@ namespace rnmbake {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double device_limit_seconds = 120;
 
 constexpr BlenderVersion first_with_offline_mode = {4, 2, 0};  // before, it is taken for a file name
 constexpr BlenderVersion first_with_named_levels = {5, 0, 0};  // of what is logged
@@ -92,26 +95,6 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   return argv;
 }
 
-std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
-    const fs::path& folder, const fs::path& bytecode) {
-  const fs::path root = fs::absolute(folder);
-  std::vector<std::pair<std::string, std::optional<std::string>>> changes = {
-      {"HOME", (root / "home").string()}, {"TMPDIR", (root / "tmp").string()}};
-  if (bytecode.empty()) {
-    changes.emplace_back("PYTHONDONTWRITEBYTECODE", "1");
-  } else {
-    changes.emplace_back("PYTHONDONTWRITEBYTECODE", std::nullopt);
-    changes.emplace_back("PYTHONPYCACHEPREFIX", fs::absolute(bytecode).string());
-  }
-  for (const char* name : {"TEMP", "TMP", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME",
-                           "XDG_STATE_HOME", "BLENDER_USER_RESOURCES", "BLENDER_USER_CONFIG",
-                           "BLENDER_USER_SCRIPTS", "BLENDER_USER_EXTENSIONS", "BLENDER_USER_DATAFILES",
-                           "PYTHONPATH", "PYTHONHOME", "PYTHONSTARTUP", "DISPLAY", "WAYLAND_DISPLAY"}) {
-    changes.emplace_back(name, std::nullopt);
-  }
-  return changes;
-}
-
 LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
                              const Launch& launch, const LaunchLimits& limits,
                              const std::function<void(const ProgressEvent&)>& on_progress) {
@@ -146,6 +129,25 @@ const BlenderInfo& RealBlender::complete_info() {
 LaunchOutcome RealBlender::run(const Launch& launch, const LaunchLimits& limits,
                                const std::function<void(const ProgressEvent&)>& on_progress) {
   return launch_blender(info_, scripts_, trust_, launch, limits, on_progress);
+}
+
+void probe_devices(BlenderInfo& info, const ScriptFolder& scripts) {
+  const TempFolder folder;
+  Launch launch;
+  launch.entry = "probe_entry.py";
+  launch.folder = folder.path();
+  launch.request = nlohmann::json::object();
+  LaunchLimits limits;
+  limits.total_seconds = device_limit_seconds;  // looking for GPUs may build kernels
+  const LaunchOutcome outcome = launch_blender(info, scripts, {}, launch, limits, {});
+  if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
+    fail(ExitCode::environment, "{} (Blender {}) does not run headless: {}; try another with --blender",
+         info.executable.string(), info.version_text, failure->message);
+  }
+  const nlohmann::json& result = std::get<Finished>(outcome).result;
+  info.devices = result.at("devices").get<std::vector<std::string>>();
+  info.has_numpy = result.at("numpy").get<bool>();
+  info.has_denoiser = result.at("denoiser").get<bool>();
 }
 
 }  // namespace rnmbake

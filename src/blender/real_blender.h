@@ -20,11 +20,6 @@ struct LaunchTrust {
 std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder& scripts,
                                      const LaunchTrust& trust, const Launch& launch);
 
-/// HOME and TMPDIR inside `folder`, and nothing from outside that could change what Blender does. `bytecode`:
-/// see ScriptFolder; empty: Python keeps nothing.
-std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
-    const std::filesystem::path& folder, const std::filesystem::path& bytecode = {});
-
 /// One launch to its end. An answer counts only if result.json holds this launch's nonce and Blender returned
 /// 0.
 LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
@@ -56,5 +51,8 @@ class RealBlender : public Blender {
   LaunchTrust trust_;
   ScriptFolder scripts_;
 };
+
+/// Fills in devices, numpy and denoiser by one headless launch (1-2 s). Error(environment) if it fails.
+void probe_devices(BlenderInfo& info, const ScriptFolder& scripts);
 
 }  // namespace rnmbake

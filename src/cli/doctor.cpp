@@ -7,6 +7,7 @@
 #include "base/version.h"
 #include "blender/find.h"
 #include "blender/probe.h"
+#include "blender/real_blender.h"
 #include "blender/scripts.h"
 
 #include <algorithm>

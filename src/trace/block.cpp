@@ -48,7 +48,22 @@ void BlockGatherer::batch(std::span<const TexelSample> block, int samples, std::
       if (shared_vertices_[i].radiance != Vec3(0)) share(i, block.size());
     }
   }
+  if (recipe_ && options_.faults.no_diffuse) {
+    for (std::size_t i = 0; i < block.size(); ++i) take_color_out(i, block[i]);
+  }
   statistics.end_batch(samples);
+}
+
+/// By the albedo that the texel has over its footprint.
+void BlockGatherer::take_color_out(std::size_t i, const TexelSample& texel) {
+  constexpr std::uint32_t places = 16;
+  Vec3 albedo(0);
+  for (std::uint32_t k = 0; k < places; ++k) {
+    Sampler sampler(0, k);
+    albedo += own_->albedo(texel.triangle, texel_samples_.place(texel, sampler.next2()).weights);
+  }
+  for (std::size_t k = 0; k < directions_; ++k)
+    states_[i].sums[k] = without_color(states_[i].sums[k], albedo);
 }
 
 /// Chooses the place in the texel.

@@ -66,6 +66,7 @@ class BlockGatherer {
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
   void add_below(std::size_t i, const TexelSample& texel, const LightSample& light);
+  void take_color_out(std::size_t i, const TexelSample& texel);
 
   /// Few enough for a lobe each.
   [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }

@@ -26,7 +26,8 @@ struct RecipeFaults {
   bool bump_shadowing = false;   // a factor below 1 on closures whose normal is not the surface's
   bool self_reflection = false;  // the object's own surface has the basis normal for its bounces too
   bool below_horizon = false;    // lamps under the surface but above the basis' horizon count
-  bool no_diffuse = false;       // surfaces that reflect nothing, such as lamps, bake black
+  bool no_diffuse = false;       // surfaces that reflect nothing, such as lamps, bake black; colours that
+                                 // others do not reflect are made up
   [[nodiscard]] bool any() const {
     return tilt_clamp || bump_shadowing || self_reflection || below_horizon || no_diffuse;
   }

@@ -38,12 +38,6 @@ Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& wo) {
   return best;
 }
 
-bool reflects_nothing(const DiffuseScene& scene, const SurfaceMaterial& material) {
-  if (material.albedo_picture < 0) return material.albedo == Vec3(0);
-  const auto& texels = scene.pictures[static_cast<std::size_t>(material.albedo_picture)].texels;
-  return std::all_of(texels.begin(), texels.end(), [](const Vec3& texel) { return texel == Vec3(0); });
-}
-
 bool is_at_least(const std::string& version, int major, int minor) {
   int have_major = 0, have_minor = 0;
   if (std::sscanf(version.c_str(), "%d.%d", &have_major, &have_minor) != 2) {
@@ -73,18 +67,47 @@ float Recipe::shadowing(const Closure& closure, const Vec3& direction) const {
   return g >= 1 ? 1 : g * (1 + g - g * g);
 }
 
+Vec3 without_color(const Vec3& light, const Vec3& albedo) {
+  float sum = 0;
+  int colors = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (!(albedo[c] > 0)) continue;
+    sum += light[c];
+    ++colors;
+  }
+  if (colors == 0) return Vec3(0);
+  Vec3 result(sum / static_cast<float>(colors));
+  for (int c = 0; c < 3; ++c) {
+    if (albedo[c] > 0) result[c] = light[c];
+  }
+  return result;
+}
+
 OwnSurface::OwnSurface(const TraceScene& scene, const GatherTarget& target)
     : scene_(scene), surface_(*target.surface), object_(static_cast<std::uint32_t>(target.object)) {
   const DiffuseScene& diffuse_scene = scene.diffuse_scene();
-  const Mesh& mesh = diffuse_scene.survey.mesh_of(diffuse_scene.survey.objects[target.object]);
+  const SceneObject& it = diffuse_scene.survey.objects[target.object];
+  const Mesh& mesh = diffuse_scene.survey.mesh_of(it);
+  const auto& materials = diffuse_scene.object_materials[target.object];
+  const bool mirrored = it.to_world.determinant() < 0;
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const std::uint32_t source = surface_.triangles[t].source;
     if (source >= of_source_.size()) of_source_.resize(std::size_t(source) + 1, absent);
     of_source_[source] = static_cast<std::uint32_t>(t);
-    const SurfaceMaterial& material =
-        diffuse_scene.material(target.object, mesh.polygon_slot[mesh.triangle_polygon[source]]);
-    black_.push_back(reflects_nothing(diffuse_scene, material));
+    const std::size_t slot = mesh.polygon_slot[mesh.triangle_polygon[source]];
+    materials_.push_back(static_cast<std::uint32_t>(materials[std::min(slot, materials.size() - 1)]));
+    const int uvs = diffuse_scene.materials[materials_.back()].picture_uv;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t corner = 3 * std::size_t(source) + (mirrored && k > 0 ? 3 - k : k);
+      uv_.push_back(uvs < 0 ? Vec2(0) : diffuse_scene.picture_uvs[uvs][mesh.triangle_loops[corner]]);
+    }
   }
+}
+
+Vec3 OwnSurface::albedo(std::uint32_t triangle, const Vec3& weights) const {
+  const Vec2* uv = &uv_[3 * std::size_t(triangle)];
+  return scene_.materials().albedo(materials_[triangle],
+                                   uv[0] * weights.x + uv[1] * weights.y + uv[2] * weights.z);
 }
 
 std::uint32_t OwnSurface::place_of(const Vertex& vertex) const {

@@ -2,8 +2,9 @@
 // Cycles.
 //
 // The material's diffuse closure gets the basis normal in place of the surface's. Cycles then bends it (tilt
-// clamp), darkens it (bump shadowing), uses it for the object's own bounces too (self-reflection), and lets
-// lamps in that stand below the face (docs/reference.md). Each can be left out.
+// clamp), darkens it (bump shadowing), uses it for the object's own bounces too (self-reflection), lets lamps
+// in that stand below the face, and divides by the object's own albedo (docs/reference.md). Each can be left
+// out.
 #pragma once
 
 #include "base/math.h"
@@ -47,6 +48,10 @@ class Recipe {
   bool microfacets_ = false;  // Blender 4.5 on: Conty Estevez et al. 2019 in place of a cubic
 };
 
+/// What a DIFFUSE bake without colour holds where a texel of this albedo receives `light`. Cycles divides
+/// what is sent back by the albedo; colours that the albedo lacks get the mean of those that it has.
+[[nodiscard]] Vec3 without_color(const Vec3& light, const Vec3& albedo);
+
 /// A target as the rays of its own texels meet it, for one basis vector.
 class OwnSurface {
  public:
@@ -60,8 +65,8 @@ class OwnSurface {
   [[nodiscard]] Vec3 start_below(std::uint32_t triangle, const Vec3& weights, const Vec3& start,
                                  const Vec3& direction, float side = 1) const;
   [[nodiscard]] Vec3 start_below(const Vertex& vertex, const Vec3& direction) const;
-  /// Whether a triangle (of the surface) reflects nothing at all.
-  [[nodiscard]] bool is_black(std::uint32_t triangle) const { return black_[triangle]; }
+  /// At a place on a triangle of the surface; `weights`: barycentric.
+  [[nodiscard]] Vec3 albedo(std::uint32_t triangle, const Vec3& weights) const;
 
  private:
   static constexpr std::uint32_t absent = ~std::uint32_t{0};
@@ -70,7 +75,8 @@ class OwnSurface {
   const TraceScene& scene_;
   const Surface& surface_;
   std::uint32_t object_;
-  std::vector<bool> black_;               // [triangles of the surface]
+  std::vector<std::uint32_t> materials_;  // [triangles of the surface] -> DiffuseScene::materials
+  std::vector<Vec2> uv_;                  // [3 x triangles of the surface] of the material's pictures
   std::vector<std::uint32_t> of_source_;  // number of the mesh's triangle -> of the surface's
 };
 

@@ -62,9 +62,9 @@ TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   const auto& atlas = request.json["atlases"][0];
   ASSERT_EQ(atlas.at("groups").size(), 2U);
   EXPECT_EQ(atlas["groups"][0].at("corners"), 2 * 4 * 3);
-  EXPECT_EQ(atlas["groups"][0].at("like"), "");
+  EXPECT_EQ(atlas["groups"][0].at("light_group"), "");
   EXPECT_EQ(atlas["groups"][1].at("corners"), 4 * 3);
-  EXPECT_EQ(atlas["groups"][1].at("like"), "lit");
+  EXPECT_EQ(atlas["groups"][1].at("light_group"), "lamps");
   std::int64_t texels = 0;
   for (const AtlasRect& rect : plan_.rects) texels += std::int64_t(rect.size.width) * rect.size.height;
   EXPECT_EQ(atlas.at("covered_texels"), texels);
@@ -108,6 +108,24 @@ TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
   ASSERT_EQ(values.size(), 24U);
   EXPECT_EQ(values[3], 6);
   for (std::size_t i = 12; i < 24; ++i) EXPECT_EQ(values[i], i % 3 == 0 ? 1 : 0);
+}
+
+TEST_F(Requests, OfReceiversSayHowHighTheyStandOverWhatGlows) {
+  survey_.meshes[0].polygon_slot = {5};  // past the last slot: Blender takes that
+  survey_.objects[0].slots = {"dull", "lamp"};
+  survey_.objects[1].slots = {"lamp"};
+  survey_.objects[2].slots = {"dull"};
+  survey_.materials["dull"] = {};
+  survey_.materials["lamp"].emissive = true;
+  Surface surface;
+  for (const float height : {1e-6F, 3e-6F, 2e-6F}) surface.triangles.emplace_back().height = height;
+  note_glow(plan_.glow_heights, survey_, 0, surface);
+  surface.triangles.resize(1);
+  note_glow(plan_.glow_heights, survey_, 1, surface);
+  note_glow(plan_.glow_heights, survey_, 2, surface);
+  add_all();
+  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  EXPECT_EQ(request.json.at("glow_heights"), nlohmann::json({{"lamp", 3e-6F}}));
 }
 
 TEST_F(Requests, ThatDoNotFitOneAtlasTakeSeveral) {

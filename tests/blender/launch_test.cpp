@@ -1,5 +1,6 @@
 // How a launch can end: with the installed Blender where it can be asked to, else with a shell script.
 #include "blender/fixture.h"
+#include "blender/private_environment.h"
 #include "blender/progress_tail.h"
 #include "process/stop.h"
 

@@ -27,7 +27,7 @@ FOREIGN_FLAGS = {
 }
 HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation
 
-SCENE_OPS = ROOT / "blender_scripts" / "scene_ops"
+SCRIPTS = ROOT / "blender_scripts"
 
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
@@ -106,8 +106,8 @@ class Documentation(unittest.TestCase):
 
     def test_words_for_materials_and_lights_are_explained(self):
         """Whatever a report may say is outside the model is in the table of docs/inspect.md."""
-        describe = load_text(SCENE_OPS / "describe.py")
-        notes = load_text(SCENE_OPS / "export_notes.py")
+        describe = load_text(SCRIPTS / "scene_ops" / "describe.py")
+        notes = load_text(SCRIPTS / "lambert" / "notes.py")
         words = set(re.findall(r'(?:yield|outside\.add\(|NotCarried\()\s*"([^"]+)"', describe + notes))
         words |= set(re.findall(r'^    "[A-Z_]+": "([^"]+)"', describe, flags=re.MULTILINE))
         words |= set(re.findall(r'^    "([a-z ]+)": \(', describe, flags=re.MULTILINE))

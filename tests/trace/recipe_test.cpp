@@ -130,6 +130,35 @@ TEST(Recipe, WhatReflectsNothingBakesBlack) {
   EXPECT_EQ(gather_one(scene, 0, options, 4, 4).directions[0].mean[0], 0);
 }
 
+/// Cycles divides what a surface sends back by its albedo, colour by colour.
+TEST(Recipe, ColorsThatASurfaceLacksAreTheMeanOfTheOthers) {
+  DiffuseScene scene;
+  const std::vector<Vec3> albedos{Vec3(0.5F, 0.5F, 0), Vec3(0, 0, 0.01F)};
+  for (std::size_t i = 0; i < albedos.size(); ++i)
+    add_object(scene, "floor", {level(1, 0, true, Vec3(float(i) * 5, 0, 0))}, albedos[i]);
+  // The third floor's texels are yellow on the left and white on the right.
+  add_object(scene, "picture", {level(1, 0, true, Vec3(10, 0, 0))}, Vec3(0));
+  scene.pictures.push_back({2, 1, {Vec3(0.5F, 0.5F, 0), Vec3(0.5F)}});
+  scene.picture_uvs.push_back(scene.survey.meshes[2].uv_layers[0].uv);
+  scene.materials[2].albedo_picture = scene.materials[2].picture_uv = 0;
+  scene.world.radiance = Vec3(1, 2, 4);
+  GatherOptions options = recipe_options("4.3.2", 64);
+  options.faults.no_diffuse = true;
+  const auto texel = [&](std::size_t object, int x) {
+    const auto colors = gather_one(scene, object, options, 8, 8).directions[0].radiance.texel(x, 4);
+    return Vec3(colors[0], colors[1], colors[2]);
+  };
+  const auto expect = [](const Vec3& found, const Vec3& relative) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(found[c], relative[c] * found[relative.x > 0 ? 0 : 2], 1e-5F) << c;
+  };
+  expect(texel(0, 4), {1, 2, 1.5F});
+  expect(texel(1, 4), {1, 1, 1});
+  EXPECT_NEAR(texel(1, 4).x, 4, 0.2);
+  expect(texel(2, 0), {1, 2, 1.5F});
+  expect(texel(2, 7), {1, 2, 4});
+}
+
 /// A floor, its left half black, under a ceiling that sends the sky's light down to it.
 DiffuseScene half_black_floor() {
   DiffuseScene scene;

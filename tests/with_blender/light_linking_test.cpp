@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 class LightLinkingWithBlender : public testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(LightLinkingWithBlender, ASunLinkedToOneObjectLightsThatOneOnly) {
+TEST_P(LightLinkingWithBlender, ASunLightsWhatItIsLinkedToOnly) {
   SurveySession session;
   if (session.info().version < BlenderVersion{4, 0, 0}) {
     GTEST_SKIP() << "SKIPPED: Blender " << session.info().version_text << " has no light linking";
@@ -48,13 +48,15 @@ TEST_P(LightLinkingWithBlender, ASunLinkedToOneObjectLightsThatOneOnly) {
   };
   EXPECT_NEAR(brightness("chosen"), 2, 1e-3);
   EXPECT_NEAR(brightness("other"), 1, 1e-3);
+  EXPECT_NEAR(brightness("row_placed#0-0f42ef92"), 2, 1e-3);  // its instancer is the one that the sun names
 }
 
-INSTANTIATE_TEST_SUITE_P(Recipes, LightLinkingWithBlender,
-                         testing::Values(std::vector<std::string>{"--recipe", "receiver"},
-                                         std::vector<std::string>{"--recipe", "flat-normal-map"},
-                                         std::vector<std::string>{"--recipe", "flat-normal-map", "--unwrap",
-                                                                  "always"}));
+INSTANTIATE_TEST_SUITE_P(
+    Recipes, LightLinkingWithBlender,
+    testing::Values(std::vector<std::string>{"--recipe", "receiver"},
+                    std::vector<std::string>{"--recipe", "receiver", "--materials", "lambert"},
+                    std::vector<std::string>{"--recipe", "flat-normal-map"},
+                    std::vector<std::string>{"--recipe", "flat-normal-map", "--unwrap", "always"}));
 
 }  // namespace
 }  // namespace rnmbake

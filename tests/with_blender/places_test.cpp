@@ -1,5 +1,5 @@
-// Where and how a receiver stands: light along its face, scenes far from the origin, small and large ones.
-// Scenes: scenes/place_cases.py.
+// Where and how a receiver stands: light along its face, scenes far from the origin, small and large ones,
+// faces that glow. Scenes: scenes/place_cases.py, scenes/glow_cases.py.
 #include "image/layered_exr.h"
 #include "with_blender/survey_session.h"
 
@@ -148,6 +148,25 @@ TEST_F(Places, AScenesPlaceAndSizeDoNotShow) {
       expect_same(channel("tiny"), here, 1e-3, 16, what("tiny"));
       expect_same(channel("huge"), here, 1e-3, 16, what("huge"));
     }
+  }
+}
+
+/// Green: strips whose first quarter glows, 2 strong, and what faces that part from one unit above. Red: a
+/// sun.
+TEST_F(Places, AGlowingFaceLightsOthersAndNotItself) {
+  const fs::path scene = session_.file("glow.blend");
+  session_.build("glow_cases.py", {scene.string()});
+  const fs::path maps = run("bake", scene, {"--samples", "256", "--resolution", "16"});
+  for (const std::string place : {"here", "turned", "km", "far"}) {
+    const fs::path file = maps / ("strip " + place + ".exr");
+    for (const char* layer : {"", "rnm0", "rnm1", "rnm2"})
+      EXPECT_LE(Channel(file, layer, 1).largest(), 1e-8) << place << " " << layer;
+    if (place == "here") expect_mean(Channel(file, "rnm2", 0), 1 / root3, "sun");
+    if (place == "far") continue;  // floats are too coarse there for what is to face it
+    const fs::path speck = maps / ("speck " + place + ".exr");
+    expect_mean(Channel(speck, "", 1), 2 * 0.75227469 / pi, place + " flat");
+    for (const char* layer : {"rnm0", "rnm1", "rnm2"})
+      expect_mean(Channel(speck, layer, 1), 2 * 0.43432599 / pi, place + " " + layer);
   }
 }
 

@@ -2,8 +2,9 @@
 
 Each folder of src/ is a room on a floor. A file may include its own room and rooms on lower floors,
 never a sibling; a library named in OWNED may be included by its rooms alone. Neither files nor the folders
-of a room include each other in a circle, and none grows too large. In blender_scripts/, core/ must run without
-Blender. Prints every offence as file:line: and exits 1 if there is one.
+of a room include each other in a circle, and none grows too large. So do the imports of blender_scripts/,
+where core/ must run without Blender; they, and those of the tests, name modules that are there. Prints every offence
+as file:line: and exits 1 if there is one.
 """
 
 import pathlib
@@ -19,6 +20,10 @@ FLOORS = {
     "cli": 5,
 }
 MOST_FILES, MOST_LINES = 25, 350  # of a folder (a header and its source count as one), of a file
+SCRIPT_FLOORS = {
+    "core": 0, "scene_ops": 1, "opening": 2, "survey": 2, "objects": 2,
+    "importing": 3, "lambert": 3, "bake": 3, "saved": 3, "export": 4, "render": 4,
+}
 OWNED = {
     "OpenImageIO/": {"image"},
     "OpenEXR/": {"image"},
@@ -32,6 +37,7 @@ OWNED = {
     "zstd.h": {"blender"},
 }
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+IMPORT = re.compile(r"\s*from (\w+)(?:\.(\w+))? import ([\w, ]*)")
 IMPORT_BPY = re.compile(r"\s*(import|from)\s+(bpy|mathutils|bmesh)\b")
 
 
@@ -114,17 +120,39 @@ def check_sizes_and_circles(source):
             yield f"{source}: {what} include each other in a circle: {' -> '.join(map(str, found))}"
 
 
-def check_python(core):
-    for path in sorted(core.rglob("*.py")):
+def check_python(scripts):
+    for path in sorted(path for path in scripts.rglob("*.py") if path.parent != scripts):
+        folder = path.relative_to(scripts).parts[0]
+        if folder not in SCRIPT_FLOORS:
+            yield f"{path}: a folder without a floor: add it to tools/dev/floors.py and blender_scripts/README.md"
+            continue
         for number, line in lines(path):
-            if IMPORT_BPY.match(line):
+            if folder == "core" and IMPORT_BPY.match(line):
                 yield f"{path}:{number}: core/ must run without Blender; this belongs in scene_ops/"
+            match = IMPORT.match(line)
+            other = match and match[1]
+            if other in SCRIPT_FLOORS and other != folder and SCRIPT_FLOORS[other] >= SCRIPT_FLOORS[folder]:
+                yield f"{path}:{number}: {folder} (floor {SCRIPT_FLOORS[folder]}) may not import {other} (floor {SCRIPT_FLOORS[other]})"
+
+
+def check_imports(root, scripts):
+    """A module that has moved away is not found before Blender runs the line."""
+    for path in sorted(path for folder in (scripts, root / "tests", root / "bench") for path in folder.rglob("*.py")):
+        for number, line in lines(path):
+            match = IMPORT.match(line)
+            if not match or match[1] not in SCRIPT_FLOORS:
+                continue
+            modules = [match[2]] if match[2] else [name.split()[0] for name in match[3].split(",") if name.strip()]
+            for module in modules:
+                if not (scripts / match[1] / f"{module}.py").exists():
+                    yield f"{path}:{number}: blender_scripts/{match[1]}/ has no {module}.py"
 
 
 def main():
     root = pathlib.Path(__file__).resolve().parents[2]
-    offences = [*check_cpp(root / "src"), *check_sizes_and_circles(root / "src"),
-                *check_python(root / "blender_scripts" / "core")]
+    scripts = root / "blender_scripts"
+    offences = [*check_cpp(root / "src"), *check_sizes_and_circles(root / "src"), *check_python(scripts),
+                *check_imports(root, scripts)]
     for offence in offences:
         print(offence.replace(f"{root}/", ""), file=sys.stderr)
     return 1 if offences else 0

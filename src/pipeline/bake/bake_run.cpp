@@ -44,7 +44,7 @@ const char* name_of(BakingSettings::Dispatch dispatch) {
 }
 
 CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings& object) {
-  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device), false};
+  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
 }
 
 /// What the version's bakes average a texel over (docs/accuracy.md).
@@ -153,8 +153,7 @@ class BakeRun {
 
   void plan_target(std::size_t i) {
     const Target& target = list_.targets[i];
-    CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
-    cycles.glowing = by_receiver() && !target.glowing.empty();
+    const CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
     if (!by_receiver()) add_object_tasks(plan_, i, target, bases_, cycles);
     if (!by_receiver() && !settings_.output.frames) return;
 
@@ -166,6 +165,7 @@ class BakeRun {
       const Vec2 map(float(target.width), float(target.height));
       ReceiverPasses passes = make_receiver_passes(*surface, bases, list_.settings[i].horizon, map);
       plan_.fences[i] = make_fences(*surface, lights_, map);
+      note_glow(plan_.glow_heights, subject_.survey, target.object, *surface);
       heights_[i] = height_in_texels(*surface, map);
       if (heights_[i] > coarse_height) coarse_.push_back({i, distance_of(*surface)});
       horizons_[i] = passes.counts;

@@ -188,7 +188,6 @@ class TargetMaker {
       target.width = target.height = choose_resolution(candidate.settings, sizes);
       target.wanted_side = wanted_resolution(candidate.settings, sizes);
       target.uv_report = report_of(target, part);
-      target.glowing = glowing_materials(survey_, candidate.object, part.triangles);
       target.part = std::move(part);
       list_.targets.push_back(std::move(target));
       list_.settings.push_back(candidate.settings);

@@ -78,7 +78,7 @@ class PointReceivers {
     }
   }
 
-  /// All positions, all normals, all UVs, as scene_ops/receivers.py wants them. Returns the corners.
+  /// All positions, all normals, all UVs, as bake/receivers.py wants them. Returns the corners.
   std::size_t write(const fs::path& file) const {
     RawFile out(file);
     out.write(positions_);
@@ -214,7 +214,7 @@ class HeightMapBake {
       bakes.push_back(bake("lamps", false));
       bakes.push_back(bake("lamps", true));
     }
-    const CyclesSettings cycles{options_.samples, 2, options_.seed, 0, "CPU", false};
+    const CyclesSettings cycles{options_.samples, 2, options_.seed, 0, "CPU"};
     return {{"surface", write_surface(field_, folder_)},
             {"copies", copies},
             {"receivers", {{"file", "receivers.f32"}, {"corners", corners}}},

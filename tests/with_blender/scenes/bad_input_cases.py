@@ -125,15 +125,43 @@ def simulations(folder):
     domain.fluid_type, domain.show_viewport = "DOMAIN", False
     domain.domain_settings.cache_directory = os.path.join(folder, "simulation_was_here")
     domain.domain_settings.resolution_max = 8
-    bpy.context.preferences.filepaths.save_version = 0
-    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, "simulations.blend"))  # a disk cache lies beside a file
+    lie_in(folder, "simulations")
     cloth.point_cache.use_disk_cache = True
-    domain.show_viewport = True
+    show_as_saved(domain)
+
+
+def paint(folder):
+    """Written when the file is opened: the canvas' cache, beside it."""
+    card("floor")
+    ob = bpy.context.view_layer.objects.active = card("canvas")
+    canvas = ob.modifiers.new("paint", "DYNAMIC_PAINT")
+    bpy.ops.dpaint.type_toggle(type="CANVAS")
+    lie_in(folder, "paint")
+    canvas.canvas_settings.canvas_surfaces[0].point_cache.use_disk_cache = True
+    show_as_saved(canvas)
+
+
+def lie_in(folder, name):
+    """A disk cache lies beside a file: needs one."""
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, name + ".blend"))
+
+
+def show_as_saved(modifier):
+    """In the file alone: a simulation must not run here. Blender 4.3 of Debian dies of any fluid, as its Python is too new."""
+    def show(*_):
+        modifier.show_viewport = True
+
+    def hide(*_):
+        modifier.show_viewport = False
+    hide()
+    bpy.app.handlers.save_pre.append(show)
+    bpy.app.handlers.save_post.append(hide)
 
 
 def main(folder):
     for build in (good, no_meshes, no_faces, some_faces, zero_uvs, no_area, dark, nan_vertex, names, autorun, driver,
-                  device, simulations):
+                  device, simulations, paint):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         sun()
         build(folder)

@@ -1,4 +1,5 @@
-"""Two equal planes under two suns; one sun is linked to the first plane alone. blender ... -- OUT.blend"""
+"""Equal planes under two suns; one sun is linked to the first plane, and to the empty that places another.
+blender ... -- OUT.blend"""
 import math
 import sys
 
@@ -42,5 +43,13 @@ sun("for all")
 linked = sun("for one")
 collection = bpy.data.collections.new("lit by one")
 collection.objects.link(chosen)
+things = bpy.data.collections.new("things")
+placed = plane("placed", 0)
+placed.users_collection[0].objects.unlink(placed)
+things.objects.link(placed)
+row = bpy.data.objects.new("row", None)
+row.instance_type, row.instance_collection, row.location.y = "COLLECTION", things, 5
+bpy.context.scene.collection.objects.link(row)
+collection.objects.link(row)
 linked.light_linking.receiver_collection = collection
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])

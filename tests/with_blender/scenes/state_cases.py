@@ -14,7 +14,8 @@ import bpy
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "../../../blender_scripts")]
 
-from scene_ops import cycles, neutral, untrusted  # noqa: E402
+from opening import untrusted  # noqa: E402
+from scene_ops import cycles, neutral  # noqa: E402
 
 # What says how light travels in a scene, and is followed: docs/scene-state.md.
 FOLLOWED = {

@@ -16,7 +16,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 from state_cases import build, extremes, owners, properties  # noqa: E402
-from scene_ops import cycles, neutral, receivers  # noqa: E402
+from bake import receivers  # noqa: E402
+from scene_ops import cycles, neutral  # noqa: E402
 
 SIDE = 8
 TILTED = [0.8164966, 0, 0.5773503]  # the first basis vector

@@ -1,0 +1,1 @@
+"""No bpy in here."""

@@ -1,0 +1,1 @@
+"""A lambert scene for the tracer (docs/export.md)."""

@@ -1,0 +1,1 @@
+"""Every material as albedo and emission (docs/lambert.md)."""

@@ -1,0 +1,1 @@
+"""Plain objects in place of what a render shows."""

@@ -1,0 +1,1 @@
+"""Checks of the open scene, before anything is done with it."""

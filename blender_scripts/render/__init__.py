@@ -1,0 +1,1 @@
+"""A camera's view (docs/render.md)."""

@@ -1,0 +1,1 @@
+"""The scene with lightmap UVs that users get."""

@@ -1,0 +1,1 @@
+"""What the folders with bpy share."""
