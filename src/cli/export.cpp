@@ -67,8 +67,9 @@ void write_text(const ExportResult& exported, const fs::path& file, std::ostream
   line("objects", fmt::format("{}, {}; {} would get a lightmap, {} of them unwrapped", survey.objects.size(),
                               counted(triangles_of(survey), "triangle"), exported.list.targets.size(),
                               unwrapped(exported.list)));
-  line("materials", fmt::format("{}, {}, {}", scene.materials.size(), counted(scene.pictures.size(), "picture"),
-                            counted(scene.normal_maps.size(), "normal map")));
+  line("materials",
+       fmt::format("{}, {}, {}", scene.materials.size(), counted(scene.pictures.size(), "picture"),
+                   counted(scene.normal_maps.size(), "normal map")));
   line("lights", fmt::format("{}", survey.lights.size()));
   line("world", world_text(scene));
   line("camera", scene.camera ? scene.camera->name : "none");
