@@ -4,35 +4,16 @@ again, rendered and validated.
     RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/attic_check.py
 """
 import json
-import os
 from pathlib import Path
-import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
-HERE = Path(__file__).resolve().parent
-SCENES = HERE.parents[1] / "scenes"
-LIMIT_SECONDS = 600
+from harness import OK, SCENES, rnmbake, run_blender
+
+MAKE = Path(__file__).resolve().parents[2] / "scenes" / "make.py"
 THINGS = 64
 SMALL = ("--resolution", "32", "--samples", "4")
-# docs/exit-codes.md
-OK = 0
-
-
-def blender():
-    found = os.environ.get("RNMBAKE_BLENDER") or shutil.which("blender")
-    if not found:
-        raise unittest.SkipTest("SKIPPED: no Blender to test with")
-    return found
-
-
-def run_blender(*arguments):
-    done = subprocess.run([blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", *arguments],
-                          stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
-    if done.returncode != OK:
-        raise AssertionError(f"Blender ended with {done.returncode}: {done.stdout[-2000:]}{done.stderr[-2000:]}")
 
 
 class Attic(unittest.TestCase):
@@ -42,18 +23,11 @@ class Attic(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
         cls.scene, cls.out = cls.folder / "scene" / "attic.blend", cls.folder / "out"
-        run_blender("--python", str(SCENES / "make.py"), "--", "attic", str(cls.scene), f"things={THINGS}")
-        cls.ended = cls.rnmbake("bake", cls.scene, "-o", cls.out, *SMALL)
+        run_blender(MAKE, "attic", cls.scene, f"things={THINGS}")
+        cls.ended = rnmbake("bake", cls.scene, "-o", cls.out, *SMALL)
         if cls.ended.returncode != OK:
             raise AssertionError(cls.ended.stderr)
         cls.manifest = cls.read_manifest()
-
-    @classmethod
-    def rnmbake(cls, *arguments):
-        env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
-        env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1")
-        return subprocess.run([os.environ["RNMBAKE_BINARY"], *map(str, arguments)], env=env, stdin=subprocess.DEVNULL,
-                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
 
     @classmethod
     def read_manifest(cls):
@@ -63,8 +37,7 @@ class Attic(unittest.TestCase):
     def saved_scene(cls):
         """What attic_saved.py finds in the scene with the lightmaps' UVs."""
         answer = cls.folder / "saved.json"
-        run_blender(str(cls.out / cls.read_manifest()["scene_with_uvs"]), "--python",
-                    str(HERE / "scenes" / "attic_saved.py"), "--", str(answer))
+        run_blender(SCENES / "attic_saved.py", answer, scene=cls.out / cls.read_manifest()["scene_with_uvs"])
         return json.loads(answer.read_text(encoding="utf-8"))
 
     def of_kind(self, word, entries):
@@ -98,7 +71,7 @@ class Attic(unittest.TestCase):
                 self.assertEqual(entry["uv_index"], 1)
 
     def test_a_second_bake_of_one_object_keeps_the_others(self):
-        again = self.rnmbake("bake", self.scene, "-o", self.out, *SMALL, "--objects", "plain_001")
+        again = rnmbake("bake", self.scene, "-o", self.out, *SMALL, "--objects", "plain_001")
         self.assertEqual(again.returncode, OK, again.stderr)
         keys = {entry["key"] for entry in self.manifest["objects"]}
         self.assertEqual({entry["key"] for entry in self.read_manifest()["objects"]}, keys)
@@ -109,8 +82,8 @@ class Attic(unittest.TestCase):
 
     def test_the_saved_scene_renders_with_its_lightmaps(self):
         view = self.folder / "view.png"
-        done = self.rnmbake("render", self.out / self.manifest["scene_with_uvs"], "--lightmaps", self.out, "-o", view,
-                            "--resolution", "64x40", "--samples", "4")
+        done = rnmbake("render", self.out / self.manifest["scene_with_uvs"], "--lightmaps", self.out, "-o", view,
+                       "--resolution", "64x40", "--samples", "4")
         self.assertEqual(done.returncode, OK, done.stderr)
         without = [line.split("traced: ")[1] for line in done.stderr.splitlines() if "no lightmap, so traced: " in line]
         names = [name for names in without for name in names.split(", ")]
@@ -119,9 +92,9 @@ class Attic(unittest.TestCase):
 
     def test_validates(self):
         report = self.folder / "report"
-        done = self.rnmbake("validate", self.scene, "-o", report, "--resolution", "8", "--samples", "32", "--bases",
-                            "flat", "--view", "0", "--decompose", "none", "--objects",
-                            "floor,plain_*,bevelled_*,flawed_*,books_*")
+        done = rnmbake("validate", self.scene, "-o", report, "--resolution", "8", "--samples", "32", "--bases",
+                       "flat", "--view", "0", "--decompose", "none", "--objects",
+                       "floor,plain_*,bevelled_*,flawed_*,books_*")
         self.assertEqual(done.returncode, OK, done.stderr)
         found = json.loads((report / "report.json").read_text(encoding="utf-8"))
         self.assertTrue(found["finding"].startswith("receiver: no bias beyond the noise"), found["finding"])

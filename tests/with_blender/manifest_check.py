@@ -4,26 +4,16 @@
 """
 import copy
 import json
-import os
 from pathlib import Path
-import shutil
-import subprocess
 import tempfile
 import unittest
 
 import jsonschema
 
-HERE = Path(__file__).resolve().parent
-SCHEMA = json.loads((HERE.parents[1] / "docs" / "manifest.schema.json").read_text(encoding="utf-8"))
-LIMIT_SECONDS = 300
-TASKS_FAILED = 6  # docs/exit-codes.md
+from harness import SCENES, TASKS_FAILED, rnmbake, run_blender
 
-
-def blender():
-    found = os.environ.get("RNMBAKE_BLENDER") or shutil.which("blender")
-    if not found:
-        raise unittest.SkipTest("SKIPPED: no Blender to test with")
-    return found
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+SCHEMA = json.loads((DOCS / "manifest.schema.json").read_text(encoding="utf-8"))
 
 
 def is_valid(manifest):
@@ -38,9 +28,7 @@ class Manifest(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
         cls.scene = cls.folder / "things.blend"
-        subprocess.run([blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", "--python",
-                        str(HERE / "scenes" / "manifest_cases.py"), "--", str(cls.scene)],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=LIMIT_SECONDS)
+        run_blender(SCENES / "manifest_cases.py", cls.scene)
         cls.manifest = cls.bake("first", "--threads", "1")
 
     @classmethod
@@ -50,12 +38,8 @@ class Manifest(unittest.TestCase):
 
     @classmethod
     def lightmaps(cls, command, name, *flags):
-        env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
-        env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1")
-        done = subprocess.run(
-            [os.environ["RNMBAKE_BINARY"], command, str(cls.scene), "-o", str(cls.folder / name), "--exclude",
-             "left out", "--resolution", "16", "--samples", "2", *flags],
-            env=env, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        done = rnmbake(command, cls.scene, "-o", cls.folder / name, "--exclude", "left out", "--resolution", "16",
+                       "--samples", "2", *flags)
         if done.returncode != TASKS_FAILED:
             raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
         return json.loads((cls.folder / name / "manifest.json").read_text(encoding="utf-8"))

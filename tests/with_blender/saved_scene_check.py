@@ -3,24 +3,14 @@
     RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/saved_scene_check.py
 """
 import json
-import os
 from pathlib import Path
-import shutil
-import subprocess
 import tempfile
 import unittest
 
-HERE = Path(__file__).resolve().parent
-LIMIT_SECONDS = 900
+import harness
+
 PATH = "/usr/sbin:/usr/bin:/sbin:/bin"  # another Python in it would become Blender's, without numpy for the exporter
 LONG = "Säule mit einem Namen, der länger ist als sechzig Zeichen ä"
-
-
-def blender():
-    found = os.environ.get("RNMBAKE_BLENDER") or shutil.which("blender")
-    if not found:
-        raise unittest.SkipTest("SKIPPED: no Blender to test with")
-    return found
 
 
 def corners(uv):
@@ -47,22 +37,12 @@ class SavedScene(unittest.TestCase):
 
     @classmethod
     def script(cls, name, *arguments, scene=None):
-        opened = [str(scene)] if scene else []
-        done = subprocess.run(
-            [blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", *opened, "--python",
-             str(HERE / "scenes" / name), "--", *map(str, arguments)],
-            env={**os.environ, "PATH": PATH}, capture_output=True, timeout=LIMIT_SECONDS)
-        if done.returncode:
-            raise AssertionError(done.stdout.decode(errors="replace") + done.stderr.decode(errors="replace"))
+        harness.run_blender(harness.SCENES / name, *arguments, scene=scene, PATH=PATH)
 
     @classmethod
     def rnmbake(cls, command, *flags):
-        env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
-        env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1")
-        output = ["-o", str(cls.maps), "--bases", "flat", "--resolution", "16"] if command == "bake" else []
-        done = subprocess.run(
-            [os.environ["RNMBAKE_BINARY"], command, str(cls.folder / "scene.blend"), *output, "--samples", "1", *flags],
-            env=env, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        output = ["-o", cls.maps, "--bases", "flat", "--resolution", "16"] if command == "bake" else []
+        done = harness.rnmbake(command, cls.folder / "scene.blend", *output, "--samples", "1", *flags)
         if done.returncode:
             raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
         return done.stderr

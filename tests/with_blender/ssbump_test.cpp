@@ -83,7 +83,7 @@ std::pair<double, double> mean_of(const FloatImage& image, std::size_t channel) 
   return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
 }
 
-/// Channel 0 with the wall on the right: tests/ssbump/mesh_occlusion_test.cpp.
+/// Channel 0 with the wall on the right: tests/ssbump/mesh/mesh_occlusion_test.cpp.
 double lune() {
   return (1 - std::sqrt(2.0 / 3)) / (1 + std::sqrt(1.0 / 3));
 }

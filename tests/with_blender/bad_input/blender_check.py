@@ -6,7 +6,8 @@ import subprocess
 import time
 import unittest
 
-from harness import (ENVIRONMENT, INTERRUPTED, IO, OK, TASKS_FAILED, BadInput, children_of, files_in, wait_for)
+from bad_input import BadInput, children_of, files_in, wait_for
+from harness import ENVIRONMENT, INTERRUPTED, IO, OK, TASKS_FAILED
 
 # The wall takes minutes: long enough to be stopped in the middle. Flags would win over its override.
 SLOW = """

@@ -3,7 +3,8 @@ import shutil
 import subprocess
 import unittest
 
-from harness import INVALID_INPUT, OK, USAGE, BadInput, blender, files_in
+from bad_input import BadInput, files_in
+from harness import INVALID_INPUT, OK, USAGE, blender
 
 
 class Content(BadInput):

@@ -4,7 +4,8 @@ from pathlib import Path
 import subprocess
 import unittest
 
-from harness import INVALID_INPUT, IO, USAGE, BadInput, files_in
+from bad_input import BadInput, files_in
+from harness import INVALID_INPUT, IO, USAGE
 
 
 class Scenes(BadInput):

@@ -1,29 +1,19 @@
-"""Runs the real rnmbake on the scenes of scenes/bad_input_cases.py and looks at what it leaves behind."""
+"""Runs the real rnmbake on the scenes of with_blender/scenes/bad_input_cases.py and looks at what it leaves behind."""
 import json
 import os
 from pathlib import Path
-import shutil
 import stat
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
-HERE = Path(__file__).resolve().parent
-SCENES = HERE.parent / "scenes" / "bad_input_cases.py"
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from harness import OK, SCENES, binary, blender, environment, run_blender  # noqa: E402
+
 LIMIT_SECONDS = 300
 QUICK = ("--resolution", "8", "--samples", "1", "--dilate", "0")
-
-# docs/exit-codes.md
-OK, USAGE, IO, INVALID_INPUT, ENVIRONMENT, UNSUPPORTED, TASKS_FAILED = range(7)
-INTERRUPTED = 130
-
-
-def blender():
-    found = os.environ.get("RNMBAKE_BLENDER") or shutil.which("blender")
-    if not found:
-        raise unittest.SkipTest("SKIPPED: no Blender to test with")
-    return found
 
 
 class Ended:
@@ -37,14 +27,11 @@ class BadInput(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.binary = os.environ["RNMBAKE_BINARY"]
         cls._folder = tempfile.TemporaryDirectory(prefix="rnmbake-bad-input-")
         cls.addClassCleanup(cls._folder.cleanup)
         cls.scenes = Path(cls._folder.name) / "scenes"
         cls.scenes.mkdir()
-        subprocess.run([blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", "--python",
-                        str(SCENES), "--", str(cls.scenes)], check=True, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.DEVNULL, timeout=LIMIT_SECONDS)
+        run_blender(SCENES / "bad_input_cases.py", cls.scenes)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="case-", dir=self._folder.name)
@@ -55,23 +42,20 @@ class BadInput(unittest.TestCase):
         self.temporary.mkdir()
 
     def environment(self, **more):
-        env = {k: v for k, v in os.environ.items() if not k.startswith("RNMBAKE")}
-        env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1", LC_ALL="C.UTF-8", TMPDIR=str(self.temporary), **more)
-        return {key: value for key, value in env.items() if value}
+        return environment(LC_ALL="C.UTF-8", TMPDIR=str(self.temporary), **more)
 
     def arguments(self, scene, *flags):
         path = scene if os.path.isabs(str(scene)) else self.scenes / scene
-        return [self.binary, "bake", str(path), "-o", str(self.out), *QUICK, *flags]
+        return [binary(), "bake", str(path), "-o", str(self.out), *QUICK, *flags]
 
-    def bake(self, scene, *flags, **environment):
-        done = subprocess.run(self.arguments(scene, *flags), env=self.environment(**environment),
-                              stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
-                              timeout=LIMIT_SECONDS)
+    def bake(self, scene, *flags, **more):
+        done = subprocess.run(self.arguments(scene, *flags), env=self.environment(**more), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
         return Ended(done.returncode, done.stdout, done.stderr)
 
     def start(self, project):
         """A project file without further flags, going on in the background in a process group of its own."""
-        return subprocess.Popen([self.binary, "bake", str(project), "-o", str(self.out), "--jobs", "1"],
+        return subprocess.Popen([binary(), "bake", str(project), "-o", str(self.out), "--jobs", "1"],
                                 env=self.environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
 
@@ -102,7 +86,7 @@ class BadInput(unittest.TestCase):
     def assert_whole(self, name):
         """An EXR that the program itself can read to its end."""
         decoded = self.folder / "decoded.exr"
-        done = subprocess.run([self.binary, "decode", str(self.out / name), "--variant", "single", "--normal",
+        done = subprocess.run([binary(), "decode", str(self.out / name), "--variant", "single", "--normal",
                                str(flat_normal(self.folder)), "-o", str(decoded)],
                               capture_output=True, encoding="utf-8", timeout=60)
         self.assertEqual(done.returncode, OK, done.stderr)
