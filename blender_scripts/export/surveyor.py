@@ -45,7 +45,7 @@ class ExportSurveyor(Surveyor):
         self.tell(f"object '{entry['key']}'", what, untraced)
 
     def tell(self, owner, what, untraced):
-        """OutsideModel of scene/exchange.h. `untraced`: what the lambert scene shows, too."""
+        """OutsideModel of scene/diffuse_scene.h. `untraced`: what the lambert scene shows, too."""
         if what or untraced:
             self.outside.append({"owner": owner, "what": sorted({*what, *untraced}), "untraced": sorted(untraced)})
 

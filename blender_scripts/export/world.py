@@ -24,7 +24,7 @@ BLACK = [0.0, 0.0, 0.0]
 
 
 def describe(task, scene, file):
-    """(World of scene/exchange.h, entry of its picture or None, what cannot be carried)."""
+    """(World of scene/diffuse_scene.h, entry of its picture or None, what cannot be carried)."""
     world = world_of(bpy.context.view_layer)
     known = describe_world(world)
     outside = sorted(outside_of(world, known["kind"])) if world else []

@@ -6,7 +6,7 @@ class Scene:
     def __init__(self):
         found = shown.collect()
         self.surfaces, self.lights, self.kept, self.warnings = found.surfaces, [], [], []
-        self.outside = []  # OutsideModel of scene/exchange.h, of what has no surface
+        self.outside = []  # OutsideModel of scene/diffuse_scene.h, of what has no surface
         for item in found.others:
             if item.type == "LIGHT":
                 item.data = item.original.data

@@ -14,7 +14,7 @@ from scene_ops.keys import CAMERA_PROPERTY
 
 OUTSIDE, NORMAL_IMAGE, NORMAL_UV, NORMAL_STRENGTH = (
     "rnmbake outside", "rnmbake normal map", "rnmbake normal uv", "rnmbake normal strength")
-RENDER_LAYER = ""  # of NormalMap::uv_layer in scene/exchange.h
+RENDER_LAYER = ""  # of NormalMap::uv_layer in scene/diffuse_scene.h
 
 
 class NotCarried(Exception):
@@ -95,7 +95,7 @@ def remember_camera(scene):
 
 
 def remembered_camera(scene):
-    """(Camera of scene/exchange.h, None for a scene without a plain one; what to say of the choice, or "")."""
+    """(Camera of scene/diffuse_scene.h, None for a scene without a plain one; what to say of the choice, or "")."""
     known = json.loads(scene.get(CAMERA_PROPERTY, '{"camera": null, "note": ""}'))
     return known["camera"], known["note"]
 

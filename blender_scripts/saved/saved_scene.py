@@ -60,7 +60,7 @@ class Entry:
 
 
 def faces_of(mesh):
-    """As src/pipeline/save_scene.cpp has them: the vertex of each corner, then the first corner of each polygon."""
+    """As src/pipeline/scene/save_scene.cpp has them: the vertex of each corner, then the first corner of each polygon."""
     corners, starts = array("i", bytes(4 * len(mesh.loops))), array("i", bytes(4 * len(mesh.polygons)))
     mesh.loops.foreach_get("vertex_index", corners)
     mesh.polygons.foreach_get("loop_start", starts)

@@ -1,5 +1,5 @@
 // config/bake_settings.h - everything that a user can set, as plain structs with the defaults inside.
-// Names, ranges and help of each setting stand in config/settings.cpp; one line there for each field here.
+// Names, ranges and help of each setting stand in config/settings_table.cpp; one line there for each field.
 #pragma once
 
 #include <cstdint>

@@ -51,7 +51,7 @@ struct GatherOptions {
   std::uint64_t seed = 0;
   int threads = 0;                                 // 0: all cores
   bool light_sampling = true, sample_bsdf = true;  // the two ways to find light; off only to test the other
-  bool reuse = true;                               // texels share the ends of their paths (trace/reuse.h)
+  bool reuse = true;                               // texels share the ends of their paths (trace/block.h)
   RecipeFaults faults;
   std::string blender_version;  // whose faults
 };

@@ -4,16 +4,20 @@
     check_docs.py --binary build/release/rnmbake
 
 Links lead somewhere; every flag exists; docs/README.md lists every page; src/README.md has the floors that
-tools/dev/floors.py enforces; blender_scripts/README.md names every entry script.
+tools/dev/floors.py enforces; blender_scripts/README.md names every entry script; files and folders that comments name
+are there.
 """
 
 import argparse
+import ast
 import importlib.util
+import io
 import os
 from pathlib import Path
 import re
 import subprocess
 import sys
+import tokenize
 import unittest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,9 +32,13 @@ FOREIGN_FLAGS = {
 HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation
 
 SCRIPTS = ROOT / "blender_scripts"
+CODE = ("src", "tests", "bench", "blender_scripts", "scenes", "tools", "cmake")
+SOURCES = (ROOT, ROOT / "src", ROOT / "tests", ROOT / "tests" / "support", SCRIPTS)  # comments name paths below these
+PLACEHOLDERS = {"src/NAME", "src/NAME/room.cmake", "core/b.py", "scenes/built"}
 
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+PATH = re.compile(r"(?<![\w./$:<\"-])(?:[\w-]+/)+[\w-]+(?:\.[a-z]+)?(?![\w/*])")
 CALL = re.compile(r"\brnmbake ([a-z]+)\b(.*)")
 
 
@@ -73,6 +81,50 @@ def commands_in(text):
     """What a help lists under Subcommands."""
     _, _, listed = text.partition("Subcommands:")
     return re.findall(r"^  ([a-z-]+) ", listed.split("Examples:")[0], flags=re.MULTILINE)
+
+
+def cpp_comments(text):
+    for number, line in enumerate(text.splitlines(), start=1):
+        code, _, comment = line.partition("//")
+        if code.count('"') % 2 == 0:
+            yield number, comment
+
+
+def python_comments(text):
+    """Docstrings, too."""
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            yield token.start[0], token.string
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            yield from enumerate(node.body[0].value.value.splitlines(), start=node.body[0].lineno)
+
+
+def shell_comments(text):
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            yield number, line
+
+
+COMMENTS = {".h": cpp_comments, ".cpp": cpp_comments, ".js": cpp_comments, ".py": python_comments,
+            ".sh": shell_comments, ".cmake": shell_comments}
+
+
+def paths_in_comments():
+    """(file, line, path) of what looks like a file or folder of ours: its first folder is one."""
+    ours = {folder.name for base in SOURCES for folder in base.iterdir() if folder.is_dir()} - NOT_OURS
+    for folder in CODE:
+        for file in sorted(path for path in (ROOT / folder).rglob("*") if path.suffix in COMMENTS):
+            for number, comment in COMMENTS[file.suffix](load_text(file)):
+                for path in PATH.findall(comment):
+                    if path.split("/")[0] in ours and path not in PLACEHOLDERS:
+                        yield file, number, path
+
+
+def is_there(path, beside):
+    """As it stands, or without its suffix."""
+    return any((base / path).exists() or any((base / path).parent.glob(f"{Path(path).name}.*"))
+               for base in (*SOURCES, beside))
 
 
 def load_text(path):
@@ -152,6 +204,12 @@ class Documentation(unittest.TestCase):
                 with self.subTest(place):
                     self.assertIn(call[1], by_command)
                     self.assertEqual(flags_in(call[2].split(" # ")[0]) - by_command[call[1]], set())
+
+    def test_files_that_comments_name_are_there(self):
+        found = list(paths_in_comments())
+        self.assertGreater(len(found), 300)
+        self.assertEqual([f"{file.relative_to(ROOT)}:{number}: {path}" for file, number, path in found
+                          if not is_there(path, file.parent)], [])
 
     def test_index_lists_every_page(self):
         index = (ROOT / "docs/README.md").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-// tests/trace/light_support.h - small lit scenes, and irradiance by Monte Carlo and by other means.
+// trace/lights/light_support.h - small lit scenes, and irradiance by Monte Carlo and by other means.
 #pragma once
 
 #include "scene/diffuse_scene.h"
