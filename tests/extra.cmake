@@ -1,6 +1,12 @@
 # Suites that are driven by Python.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
+# What `./dev lint` says without a compiler. A high cost starts them, and docs.*, before all others.
+foreach(CHECK format rooms python)
+  add_test(NAME style.${CHECK} COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/style.sh ${CHECK})
+  set_tests_properties(style.${CHECK} PROPERTIES LABELS "unit;style" TIMEOUT 300 COST 1000)
+endforeach()
+
 # One test for each folder of tests/cli/ that holds a `command`; see run_cases.py.
 file(GLOB CLI_CASES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/cli/*/command)
 foreach(COMMAND_FILE ${CLI_CASES})
@@ -14,7 +20,7 @@ endforeach()
 
 add_test(NAME docs.check
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_docs.py --binary $<TARGET_FILE:rnmbake>)
-set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 120)
+set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 300 COST 1000)
 
 foreach(CHECK accuracy tracing)
   add_test(NAME bench.${CHECK}

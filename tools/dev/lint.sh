@@ -13,11 +13,9 @@ tidy_files() {
 
 lint() {
   case ${1:-} in "" | --changed) ;; *) die "./dev lint knows --changed, not $1" ;; esac
-  require "${build_packages[@]}" clang-format clang-tidy python3 pyflakes3
+  require "${build_packages[@]}" "${style_packages[@]}" clang-tidy
   local status=0
-  format --check || status=1
-  python3 tools/dev/floors.py || status=1
-  find . -name '*.py' -not -path './.roots/*' -not -path './build/*' -print0 | xargs -0r pyflakes3 || status=1
+  tools/dev/style.sh || status=1
   build release # clang-tidy reads its compile commands, and the sources that it generates
   tidy_files "$@" | xargs -r -n 4 -P "$(nproc)" \
     clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>"$(log tidy)" || status=1

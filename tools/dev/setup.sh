@@ -8,6 +8,7 @@ build_packages=(
   libembree-dev libtbb-dev libhwy-dev zlib1g-dev libzstd-dev
 )
 blender_packages=(blender python3-numpy)
+style_packages=(clang-format pyflakes3)
 test_packages=("${build_packages[@]}" "${blender_packages[@]}" python3-jsonschema chromium)
 
 die() {
