@@ -100,7 +100,7 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
     laps.lap("surface");
     ReceiverPasses passes =
         make_receiver_passes(surface, bases, ObjectSettings::Horizon::identity, Vec2(side));
-    laps.lap("sheets");
+    laps.lap("receiver passes");
     add_receiver_tasks(plan, i, target, std::move(passes), bases, {});
     laps.lap("crop");
   }

@@ -51,7 +51,7 @@ def report(data):
     cpp = planned["steps"]
     per = {"lists": lists["triangles"] / 1e6, "planned": planned["triangles"] / 1e6,
            "arrays": arrays["triangles"] / 1e6}
-    directions = sum(cpp[step] for step in ("tangent frames", "surface", "sheets", "crop", "group", "write arrays"))
+    directions = sum(cpp[step] for step in ("tangent frames", "surface", "receiver passes", "crop", "group", "write arrays"))
     rows = [("evaluated meshes, with tangents, out of Blender", lists["steps"]["read"], cpp["read survey"], "planned",
              "the survey's `foreach_get`, read by C++; `inspect` and the choice of UVs need it anyway"),
             ("positions, basis normals, UVs of all corners", lists["steps"]["directions"], directions, "planned",
@@ -69,7 +69,7 @@ def report(data):
         table(["step", "lists, s", "s for each million", "arrays and C++, s", "s for each million", "how"], lines),
         f"Living room, flat and three bases: {lists['triangles']} receiver triangles with lists. The product has "
         f"{arrays['triangles']}, because triangles whose basis normals lie under their face are cut and get moment "
-        "sheets (`--horizon identity`), which the lists leave out. Lists: `bench/in_blender/receiver_lists.py`, the "
+        "passes (`--horizon identity`), which the lists leave out. Lists: `bench/in_blender/receiver_lists.py`, the "
         "obvious script, nothing made slower on purpose.",
         "### The C++ part", cpp_table(cpp, planned["triangles"]), *changes_table()])
 
@@ -83,7 +83,7 @@ def changes_table():
         before, after = change["before"], change["after"]
         for name, old, new, unit in (
                 ("CPU", before["cpu"], after["cpu"], "s"),
-                ("sheets", 1000 * before["steps"]["sheets"], 1000 * after["steps"]["sheets"], "ms"),
+                ("receiver passes", 1000 * before["steps"]["receiver passes"], 1000 * after["steps"]["receiver passes"], "ms"),
                 ("write arrays", 1000 * before["steps"]["write arrays"], 1000 * after["steps"]["write arrays"], "ms"),
                 ("receiver triangles", before["triangles"], after["triangles"], ""),
                 ("peak", before["peak"] / 2**20, after["peak"] / 2**20, "MiB")):

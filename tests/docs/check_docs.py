@@ -217,6 +217,12 @@ class Documentation(unittest.TestCase):
             if page.name != "README.md":
                 self.assertIn(f"]({page.name})", index)
 
+    def test_glossary_gives_each_word_one_meaning(self):
+        rows = re.findall(r"^\| ([a-zA-Z].*?) \|", load_text(ROOT / "docs" / "glossary.md"), flags=re.MULTILINE)
+        words = [word for row in rows if row != "word" for word in row.split(", ")]
+        self.assertGreater(len(words), 40)
+        self.assertEqual(sorted(words), sorted(set(words)))
+
     def test_floors_are_those_enforced(self):
         enforced = load(ROOT / "tools/dev/floors.py").FLOORS
         rooms = {path.name for path in (ROOT / "src").iterdir() if path.is_dir()}
