@@ -20,7 +20,8 @@ endforeach()
 
 add_test(NAME docs.check
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_docs.py --binary $<TARGET_FILE:rnmbake>)
-set_tests_properties(docs.check PROPERTIES LABELS unit TIMEOUT 300 COST 1000)
+add_test(NAME docs.claims COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_claims.py)
+set_tests_properties(docs.check docs.claims PROPERTIES LABELS unit TIMEOUT 300 COST 1000)
 
 foreach(CHECK accuracy tracing)
   add_test(NAME bench.${CHECK}
