@@ -10,6 +10,7 @@ are there.
 
 import argparse
 import ast
+import functools
 import importlib.util
 import io
 import os
@@ -141,20 +142,24 @@ def load(path):
 class Documentation(unittest.TestCase):
     binary = None
 
-    def help_of(self, *command):
-        done = subprocess.run([self.binary, *command, "--help"], check=True, stdout=subprocess.PIPE, encoding="utf-8")
+    @classmethod
+    def help_of(cls, *command):
+        done = subprocess.run([cls.binary, *command, "--help"], check=True, stdout=subprocess.PIPE, encoding="utf-8")
         return done.stdout
 
-    def flags_below(self, *command):
+    @classmethod
+    def flags_below(cls, *command):
         """Flags of a command and of those below it."""
-        text = self.help_of(*command)
+        text = cls.help_of(*command)
         below = commands_in(text)
-        return flags_in(text).union(*(self.flags_below(*command, name) for name in below))
+        return flags_in(text).union(*(cls.flags_below(*command, name) for name in below))
 
-    def flags_by_command(self):
-        overview = self.help_of()
+    @classmethod
+    @functools.lru_cache(maxsize=1)
+    def flags_by_command(cls):
+        overview = cls.help_of()
         common = flags_in(overview) | HIDDEN_FLAGS
-        return {name: common | self.flags_below(name) for name in commands_in(overview)}
+        return {name: common | cls.flags_below(name) for name in commands_in(overview)}
 
     def test_words_for_materials_and_lights_are_explained(self):
         """Whatever a report may say is outside the model is in the table of docs/inspect.md."""
