@@ -10,6 +10,7 @@ namespace {
 
 constexpr double shown_share = 0.01;      // of a texel: narrower bands of light are not worth a fence
 constexpr double steepest_of_all = 0.25;  // sine: beyond, a fence would shade as much as it shuts out
+constexpr double highest = 1;             // texels that a fence may shade
 constexpr double least_way = 1e-4;        // cosine between a light's direction and the way out over an edge
 
 double size_of(const LightInfo& light, const char* name) {
@@ -80,6 +81,14 @@ class Face {
     const Vec3d way = light.place - Vec3d(triangle_.corners[corner].position);
     return way.dot(out) + light.radius > least_way * (way.length() + radius_);
   }
+  /// World units.
+  [[nodiscard]] double texel(const Vec2& map) const {
+    const auto& k = triangle_.corners;
+    const Vec2 u = (k[1].uv - k[0].uv) * map, v = (k[2].uv - k[0].uv) * map;
+    const double texels = std::abs(double(u.x) * v.y - double(u.y) * v.x);
+    const double area = (k[1].position - k[0].position).cross(k[2].position - k[0].position).length();
+    return texels > 0 ? std::sqrt(area / texels) : std::numeric_limits<double>::infinity();
+  }
   /// In the face's plane, unit.
   [[nodiscard]] Vec3d way_out(std::size_t corner) const {
     const auto& k = triangle_.corners;
@@ -93,15 +102,6 @@ class Face {
     const double height = way.dot(normal_), range = light.far ? 1 : way.length() + radius_;
     return height - light.radius <= grazing_sine * range && height + light.radius > -steepest * range;
   }
-  /// World units.
-  [[nodiscard]] double texel(const Vec2& map) const {
-    const auto& k = triangle_.corners;
-    const Vec2 u = (k[1].uv - k[0].uv) * map, v = (k[2].uv - k[0].uv) * map;
-    const double texels = std::abs(double(u.x) * v.y - double(u.y) * v.x);
-    const double area = (k[1].position - k[0].position).cross(k[2].position - k[0].position).length();
-    return texels > 0 ? std::sqrt(area / texels) : std::numeric_limits<double>::infinity();
-  }
-
   const SurfaceTriangle& triangle_;
   Vec3d normal_, centre_;
   double radius_ = 0, steepest_ = 0;
@@ -175,18 +175,23 @@ std::vector<LightBall> light_balls(const SceneSurvey& survey) {
   return balls;
 }
 
-std::vector<Fence> make_fences(const Surface& surface, const std::vector<LightBall>& lights,
-                               const Vec2& map) {
+Fences make_fences(const Surface& surface, const std::vector<LightBall>& lights, const Vec2& map) {
   std::vector<Rim> rims = rims_of(surface, lights, map);
   std::stable_sort(rims.begin(), rims.end(), [](const Rim& a, const Rim& b) { return a.edge() < b.edge(); });
   const double diagonal = diagonal_of(surface);
-  std::vector<Fence> fences;
+  Fences fences;
   for (auto first = rims.begin(); first != rims.end();) {
     const auto last =
         std::find_if(first, rims.end(), [&](const Rim& it) { return it.edge() != first->edge(); });
     for (auto rim = first; rim != last; ++rim) {
-      if (rim->open && std::none_of(first, last, [&](const Rim& other) { return goes_on(*rim, other); }))
-        fences.push_back(fence_along(*rim, diagonal));
+      if (!rim->open || std::any_of(first, last, [&](const Rim& other) { return goes_on(*rim, other); }))
+        continue;
+      const Fence fence = fence_along(*rim, diagonal);
+      const double height = (fence.corners[3] - fence.corners[0]).length() / Face(*rim->face, map).texel(map);
+      if (height > highest)
+        fences.left_out = std::max(fences.left_out, height);
+      else
+        fences.strips.push_back(fence);
     }
     first = last;
   }

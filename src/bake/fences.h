@@ -31,9 +31,15 @@ struct LightBall {
 
 [[nodiscard]] std::vector<LightBall> light_balls(const SceneSurvey& survey);
 
+struct Fences {
+  std::vector<Fence> strips;
+  double left_out = 0;  // texels: height of the highest strip that would have shaded too much; 0: all stand
+};
+
 /// Along the rims of faces over which such a light would light more than a hundredth of a texel. `map`:
-/// texels of the lightmap along u and v.
-[[nodiscard]] std::vector<Fence> make_fences(const Surface& surface, const std::vector<LightBall>& lights,
-                                             const Vec2& map);
+/// texels of the lightmap along u and v. What is so small, or so far off, that Cycles starts rays more than
+/// a texel off it has no fence against light that runs along it: the fence's own shadow would show.
+[[nodiscard]] Fences make_fences(const Surface& surface, const std::vector<LightBall>& lights,
+                                 const Vec2& map);
 
 }  // namespace rnmbake

@@ -19,7 +19,7 @@ LightBall sun(const Vec3d& towards, double radius = 0) {
 }
 
 std::vector<Fence> fences(const Surface& surface, const LightBall& light) {
-  return make_fences(surface, {light}, Vec2(16, 16));
+  return make_fences(surface, {light}, Vec2(16, 16)).strips;
 }
 
 /// Over the plane z = height of the square.
@@ -63,11 +63,22 @@ TEST(Fences, StandAroundLampsInThePlane) {
 TEST(Fences, AreHighEnoughFarFromTheOrigin) {
   Mat44 far;
   far.setTranslation(Vec3d(0, 0, 5000));
-  const auto found = fences(square_surface(far), sun({1, 0, 0}));
+  const auto found = make_fences(square_surface(far), {sun({1, 0, 0})}, Vec2(4, 4)).strips;
   ASSERT_EQ(found.size(), 1U);
   const double steps =
       256 * (std::nextafter(5000.0F, 1e9F) - 5000.0F);  // by which Cycles may move a ray's start
   EXPECT_GT(top(found[0]) - 5000, steps);
+}
+
+/// Cycles starts rays 1e-5 off a face, however small that is; 16 texels along the square.
+TEST(Fences, DoNotStandWhereTheirOwnShadowWouldShow) {
+  const auto made = [](double size) {
+    return make_fences(square_surface(Mat44().setScale(size)), {sun({1, 0, 0})}, Vec2(16, 16));
+  };
+  EXPECT_EQ(made(2e-4).strips.size(), 1U);
+  EXPECT_EQ(made(2e-4).left_out, 0);
+  EXPECT_TRUE(made(5e-5).strips.empty());
+  EXPECT_NEAR(made(5e-5).left_out, 1e-5 / (2 * 5e-5 / 16), 0.1);
 }
 
 TEST(Fences, BallsHoldTheirLights) {

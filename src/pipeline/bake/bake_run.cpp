@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/names.h"
+#include "base/object_notes.h"
 #include "base/text.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/manifest.h"
@@ -106,6 +107,7 @@ class BakeRun {
     lost_.warn();
     group_tasks(plan_, resolve_dispatch(settings_.bake));
     warn_of_coarse();
+    warn_of_small();
     if (by_receiver()) warn_of_shadowless();
   }
 
@@ -120,6 +122,16 @@ class BakeRun {
           "light; switch its shadows on",
           light.name);
     }
+  }
+
+  /// Cycles moves rays by lengths of its own, however small the scene.
+  void warn_of_small() const {
+    if (small_.empty()) return;
+    log::warn(
+        "{}: too small, or too far from the origin: Cycles starts rays more than a texel off its faces, and "
+        "light "
+        "that runs along them may reach them; scale the scene up, or move it to the origin",
+        first_names(small_));
   }
 
   /// Floats are too coarse there, in Cycles as everywhere.
@@ -164,7 +176,9 @@ class BakeRun {
       for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
       const Vec2 map(float(target.width), float(target.height));
       ReceiverPasses passes = make_receiver_passes(*surface, bases, list_.settings[i].horizon, map);
-      plan_.fences[i] = make_fences(*surface, lights_, map);
+      Fences fences = make_fences(*surface, lights_, map);
+      plan_.fences[i] = std::move(fences.strips);
+      if (fences.left_out > 0) small_.push_back(target.key);
       note_glow(plan_.glow_heights, subject_.survey, target.object, *surface);
       heights_[i] = height_in_texels(*surface, map);
       if (heights_[i] > coarse_height) coarse_.push_back({i, distance_of(*surface)});
@@ -194,6 +208,7 @@ class BakeRun {
   LostDirections lost_;
   std::vector<double> heights_;
   std::vector<Coarse> coarse_;
+  std::vector<std::string> small_;  // targets that are too small for fences
   std::vector<LightBall> lights_;
 };
 

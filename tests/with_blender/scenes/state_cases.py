@@ -187,7 +187,8 @@ def displaced():
     owner.displacement_method = "BOTH"
     tree = material.node_tree
     raised = tree.nodes.new("ShaderNodeDisplacement")
-    raised.inputs["Height"].default_value, raised.inputs["Midlevel"].default_value = 0.1, 0
+    for name, value in (("Height", 0.1), ("Midlevel", 0), ("Scale", 1)):  # whose defaults are others since 5.2
+        raised.inputs[name].default_value = value
     tree.links.new(raised.outputs[0], tree.get_output_node("CYCLES").inputs["Displacement"])
     plane = add(bpy.ops.mesh.primitive_plane_add, material, rotation=(.4, 0, 0))
     plane.modifiers.new("two", "ARRAY").relative_offset_displace = (2, 0, 0)
