@@ -29,6 +29,7 @@ FOREIGN_FLAGS = {
     "--factory-startup", "--python", "--python-exit-code",  # blender
     "--install",  # cmake
     "--info",  # oiiotool
+    "--gtest_filter",  # GoogleTest
 }
 HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation
 
@@ -37,7 +38,7 @@ CODE = ("src", "tests", "bench", "blender_scripts", "scenes", "tools", "cmake")
 SOURCES = (ROOT, ROOT / "src", ROOT / "tests", ROOT / "tests" / "support", SCRIPTS)  # comments name paths below these
 PLACEHOLDERS = {"src/NAME", "src/NAME/room.cmake", "core/b.py", "scenes/built"}
 
-FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
+FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9_-]*")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PATH = re.compile(r"(?<![\w./$:<\"-])(?:[\w-]+/)+[\w-]+(?:\.[a-z]+)?(?![\w/*])")
 CALL = re.compile(r"\brnmbake ([a-z]+)\b(.*)")
