@@ -1,6 +1,7 @@
 #include "image/metrics.h"
 
 #include "base/error.h"
+#include "base/numeric/running_moments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,15 +227,10 @@ PictureComparison::Reach PictureComparison::jackknife(
   const double value = estimate(sum);
   const double n = double(tiles_.size());
   if (tiles_.size() < 2) return {value, kInfinite, 1};
-  double mean = 0, squares = 0, seen = 0;  // Welford's way: no cancellation
-  for (const Tile& tile : tiles_) {
-    const double without = estimate(sum - tile);
-    seen += 1;
-    const double step = without - mean;
-    mean += step / seen;
-    squares += step * (without - mean);
-  }
-  return {value, std::sqrt(squares * (n - 1) / n), student_quantile(n - 1)};
+  RunningMoments<double> moments;
+  double count = 0;
+  for (const Tile& tile : tiles_) moments.add(estimate(sum - tile), ++count);
+  return {value, std::sqrt(moments.squares * (n - 1) / n), student_quantile(n - 1)};
 }
 
 Statistic PictureComparison::with_rare_path(const Reach& reach, double down, double up) {

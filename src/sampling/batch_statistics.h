@@ -2,15 +2,16 @@
 #pragma once
 
 #include "base/math.h"
+#include "base/numeric/running_moments.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace rnmbake {
 
-/// Collects `values` colours for each of `texels` texels. Samples within a batch may depend on each other
-/// (they are stratified), batches may not: the standard error comes from how the batches' means scatter. All
-/// batches are of one size.
+/// Estimates `values` colours for each of `texels` texels. Samples within a batch may be correlated (they are
+/// stratified), batches are independent: the standard error comes from the variance of the batches' means.
+/// All batches have the same number of samples.
 class BatchStatistics {
  public:
   BatchStatistics(std::size_t texels, std::size_t values)
@@ -20,7 +21,7 @@ class BatchStatistics {
         state_(texels * values),
         whole_(values) {}
 
-  /// Where the samples of the present batch are added up.
+  /// Sums of the current batch, to add samples to.
   [[nodiscard]] Vec3* texel(std::size_t index) { return &batch_[index * values_]; }
   void end_batch(int samples);
 
@@ -32,19 +33,12 @@ class BatchStatistics {
   [[nodiscard]] Vec3 squared_error(std::size_t texel, std::size_t value) const {
     return squared_error(state_[texel * values_ + value]);
   }
-  /// Of the mean over all texels, whose errors hang together.
+  /// Of the mean over all texels, whose errors are correlated.
   [[nodiscard]] Vec3 whole_mean(std::size_t value) const { return whole_[value].mean; }
   [[nodiscard]] Vec3 whole_squared_error(std::size_t value) const { return squared_error(whole_[value]); }
 
  private:
-  struct Moments {
-    Vec3 mean{0, 0, 0}, squares{0, 0, 0};  // squares: summed squared distances from the mean (Welford 1962)
-    void add(const Vec3& value, int count) {
-      const Vec3 off = value - mean;
-      mean += off / static_cast<float>(count);
-      squares += off * (value - mean);
-    }
-  };
+  using Moments = RunningMoments<Vec3>;
   [[nodiscard]] Vec3 squared_error(const Moments& moments) const {
     if (batches_ < 2) return Vec3(0);
     return moments.squares / (static_cast<float>(batches_) * static_cast<float>(batches_ - 1));
@@ -59,16 +53,16 @@ class BatchStatistics {
 
 inline void BatchStatistics::end_batch(int samples) {
   ++batches_;
-  const float scale = 1 / static_cast<float>(samples);
+  const float scale = 1 / static_cast<float>(samples), count = static_cast<float>(batches_);
   for (std::size_t v = 0; v < values_; ++v) {
     Vec3 sum(0);
     for (std::size_t t = 0; t < texels_; ++t) {
       Vec3& cell = batch_[t * values_ + v];
-      state_[t * values_ + v].add(cell * scale, batches_);
+      state_[t * values_ + v].add(cell * scale, count);
       sum += cell;
       cell = Vec3(0);
     }
-    whole_[v].add(sum * (scale / static_cast<float>(texels_)), batches_);
+    whole_[v].add(sum * (scale / static_cast<float>(texels_)), count);
   }
 }
 

@@ -1,8 +1,9 @@
-// sampling/cosine_lobes.h - chooses directions over a face for several cosine lobes at once.
+// sampling/cosine_lobes.h - directions over a face for several clamped cosines at once, and their density.
 #pragma once
 
 #include "base/math.h"
-#include "sampling/warps.h"
+#include "sampling/maps.h"
+#include "sampling/orthonormal_basis.h"
 
 #include <algorithm>
 #include <array>
@@ -11,30 +12,24 @@
 
 namespace rnmbake {
 
-/// Around `n` with pdf cos/pi (Malley's method).
-[[nodiscard]] inline Vec3 cosine_direction(const Vec3& n, const Vec2& u) {
-  const float r = std::sqrt(u.x), phi = static_cast<float>(2 * pi) * u.y;
-  const Vec3 local(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0F, 1 - u.x)));
-  return unit(Axes(n).to_world(local));
-}
-
-/// An equal mixture of cosine lobes, the part under the face mirrored up; with `uniform` one lobe more that
-/// is the same in all directions. Whatever max(0, D . lobe) weighs is at most lobes x pi times the pdf.
-class Lobes {
+/// An equal mixture of cosine lobes around several axes, the part below the face mirrored up; with `uniform`,
+/// the uniform density over the hemisphere is one component more. Bounds the cosine of each axis:
+/// max(0, D . axis) <= components x pi x pdf(D).
+class CosineLobes {
  public:
   static constexpr std::size_t most = 6;
 
-  Lobes() = default;
-  explicit Lobes(const Vec3& face, bool uniform = false) : face_(face), uniform_(uniform) {}
+  CosineLobes() = default;
+  explicit CosineLobes(const Vec3& face, bool uniform = false) : face_(face), uniform_(uniform) {}
   void add(const Vec3& axis) {
     axes_[count_] = axis;
     slopes_[count_++] = 2 * axis.dot(face_);
   }
 
   [[nodiscard]] Vec3 sample(float choice, const Vec2& u) const {
-    const auto lobe = std::min(static_cast<std::size_t>(choice * float(all())), all() - 1);
-    if (lobe >= count_) return uniform_direction(u);
-    const Vec3 direction = cosine_direction(axes_[lobe], u);
+    const auto lobe = std::min(static_cast<std::size_t>(choice * float(components())), components() - 1);
+    if (lobe >= count_) return OrthonormalBasis(face_).to_world(uniform_hemisphere_polar(u));
+    const Vec3 direction = unit(OrthonormalBasis(axes_[lobe]).to_world(cosine_hemisphere_polar(u)));
     const float height = direction.dot(face_);
     return height < 0 ? direction - face_ * (2 * height) : direction;
   }
@@ -48,21 +43,17 @@ class Lobes {
       const float up = direction.dot(axes_[i]);
       sum += std::max(0.0F, up) + std::max(0.0F, up - height * slopes_[i]);
     }
-    return (sum + (uniform_ ? 0.5F : 0.0F)) / (static_cast<float>(pi) * float(all()));
+    return (sum + (uniform_ ? 0.5F : 0.0F)) / (static_cast<float>(pi) * float(components()));
   }
 
  private:
-  [[nodiscard]] std::size_t all() const { return count_ + (uniform_ ? 1 : 0); }
-  [[nodiscard]] Vec3 uniform_direction(const Vec2& u) const {
-    const float z = u.x, r = std::sqrt(std::max(0.0F, 1 - z * z)), phi = static_cast<float>(2 * pi) * u.y;
-    return Axes(face_).to_world({r * std::cos(phi), r * std::sin(phi), z});
-  }
+  [[nodiscard]] std::size_t components() const { return count_ + (uniform_ ? 1 : 0); }
 
   Vec3 face_;
   bool uniform_ = false;
   std::size_t count_ = 0;
   std::array<Vec3, most> axes_{};
-  std::array<float, most> slopes_{};  // 2 axis . face: what mirroring takes away for each unit of height
+  std::array<float, most> slopes_{};  // 2 axis . face: what mirroring subtracts for each unit of height
 };
 
 }  // namespace rnmbake

@@ -2,19 +2,12 @@
 #pragma once
 
 #include "base/math.h"
+#include "sampling/splitmix64.h"
 
 #include <array>
 #include <cstdint>
 
 namespace rnmbake {
-
-/// A good mix of two numbers into one (SplitMix64's finaliser).
-[[nodiscard]] constexpr std::uint64_t hash_of(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t x = a + 0x9e3779b97f4a7c15ULL * (b + 1);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
 
 /// Second dimension of Sobol's sequence for the low and the high byte of an index: they add by exclusive or.
 inline constexpr auto sobol_bytes = [] {

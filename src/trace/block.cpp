@@ -92,7 +92,7 @@ void BlockGatherer::look_around(std::size_t i) {
   const PathState& here = states_[i];
   const Vec3* normals = &normals_[i * directions_];
   const bool few = few_directions();
-  Lobes lobes(here.face, coefficients_ > 0 || !few);
+  CosineLobes lobes(here.face, coefficients_ > 0 || !few);
   if (few) {
     for (std::size_t k = 0; k < directions_; ++k) lobes.add(normals[k]);
   } else {
@@ -150,7 +150,7 @@ void BlockGatherer::sample_lamps(std::size_t i, const TexelSample& texel, std::u
     float share = 1;
     if (light.sample_bsdf && options_.sample_bsdf) {
       look_around(from[k]);
-      share = balance(density, lobes_[from[k]].pdf(light.direction));
+      share = balance_heuristic(density, lobes_[from[k]].pdf(light.direction));
     }
     add(from[k], light.direction, light.radiance * (share / density) * left[k].transmittance);
   }
@@ -169,7 +169,7 @@ void BlockGatherer::add_below(std::size_t i, const TexelSample& texel, const Lig
     const Vec3& normal = normals_[i * directions_ + k];
     const float other = normal.dot(light.direction) * inv_pi;
     if (!(other > 0)) continue;
-    const float share = light.sample_bsdf ? power(light.pdf, other) : 1;
+    const float share = light.sample_bsdf ? power_heuristic(light.pdf, other) : 1;
     const float cosine = recipe_->cosine({normal, here.frame.normal, true}, light.direction);
     here.sums[k] +=
         light.radiance * (cosine * inv_pi * share / (light.pdf * lamp_samples)) * left.transmittance;

@@ -69,7 +69,7 @@ class BlockGatherer {
   void take_color_out(std::size_t i, const TexelSample& texel);
 
   /// Few enough for a lobe each.
-  [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < Lobes::most; }
+  [[nodiscard]] bool few_directions() const { return directions_ > 0 && directions_ < CosineLobes::most; }
   /// From where light counts: over the face, or (zero) from everywhere.
   [[nodiscard]] Vec3 horizon(std::size_t i) const {
     return recipe_ && recipe_->faults().below_horizon ? Vec3(0) : states_[i].face;
@@ -85,7 +85,7 @@ class BlockGatherer {
   bool framed_;  // whether `PathState` needs its frame
   std::vector<PathState>
       states_;  // [texels + lamp_samples]: the last are where one texel looks at lamps from
-  std::vector<Lobes> lobes_;
+  std::vector<CosineLobes> lobes_;
   std::vector<Vec3> normals_;  // [texels + lamp_samples][directions], world space
   std::vector<SharedVertex> shared_vertices_;
   std::int64_t rays_ = 0;

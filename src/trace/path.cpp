@@ -1,6 +1,7 @@
 #include "trace/path.h"
 
-#include "sampling/cosine_lobes.h"
+#include "sampling/maps.h"
+#include "sampling/orthonormal_basis.h"
 #include "trace/transparency.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   const float other = reflector.closure.normal.dot(light.direction) * inv_pi;
   float share = 1;
   if (light.sample_bsdf && options.sample_bsdf) {
-    share = above ? balance(light.pdf, other) : power(light.pdf, other);
+    share = above ? balance_heuristic(light.pdf, other) : power_heuristic(light.pdf, other);
   }
   return light.radiance * (cosine * inv_pi * share / light.pdf) * left.transmittance;
 }
@@ -74,7 +75,7 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
       if (!(sampler.next1() < survival)) break;
       throughput /= survival;
     }
-    const Vec3 direction = cosine_direction(normal, sampler.next2());
+    const Vec3 direction = unit(OrthonormalBasis(normal).to_world(cosine_hemisphere_polar(sampler.next2())));
     if (!(direction.dot(vertex.face) > 0)) break;  // under the face
     const float pdf = direction.dot(normal) * inv_pi;
     if (reflector.recipe != nullptr) throughput *= reflector.cosine(direction) * inv_pi / pdf;

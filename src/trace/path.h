@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "sampling/mis.h"
 #include "sampling/sampler.h"
 #include "trace/recipe.h"
 #include "trace/scene.h"
@@ -28,22 +29,11 @@ struct PathOptions {
   Vec3 basis;
 };
 
-/// How much a way to find light counts where the other could have found it too (balance heuristic, Veach
-/// 1997).
-[[nodiscard]] inline float balance(float pdf, float other) {
-  return pdf / (pdf + other);
-}
-
-/// Cycles' own weight for light that it samples below a face, where chance finds none (power heuristic).
-[[nodiscard]] inline float power(float pdf, float other) {
-  return pdf * pdf / (pdf * pdf + other * other);
-}
-
 /// Weight of light that a ray with density `pdf` met by chance and looking at lights would have found with
 /// `light_pdf`.
 [[nodiscard]] inline float mis_weight(bool light_sampling, bool sample_bsdf, float pdf, float light_pdf) {
   if (!sample_bsdf) return 0;
-  return light_sampling ? balance(pdf, light_pdf) : 1;
+  return light_sampling ? balance_heuristic(pdf, light_pdf) : 1;
 }
 
 /// Whether Cycles samples that light below a face, too: an even world it leaves to chance.

@@ -1,6 +1,6 @@
 #include "trace/view.h"
 
-#include "sampling/warps.h"
+#include "sampling/maps.h"
 #include "trace/transparency.h"
 
 #include <algorithm>

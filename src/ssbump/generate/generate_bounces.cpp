@@ -1,5 +1,6 @@
 #include "ssbump/generate/generate_bounces.h"
 
+#include "sampling/splitmix64.h"
 #include "ssbump/generate/hemisphere_rays.h"
 #include "ssbump/heights/trace_heights.h"
 #include "ssbump/map/lobes.h"
@@ -12,25 +13,10 @@
 namespace rnmbake {
 namespace {
 
-/// Numbers in [0, 1), a sequence for each seed (SplitMix64).
-class Numbers {
- public:
-  explicit Numbers(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t x = state_;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
-
-/// Density cosine / pi about the normal.
-Vec3d reflected(const Vec3d& normal, Numbers& numbers) {
-  const double z = 2 * numbers.next() - 1, angle = 2 * pi * numbers.next();
+/// A direction with density cosine / pi around the normal: the normal plus a uniform point of the unit
+/// sphere.
+Vec3d reflected(const Vec3d& normal, SplitMix64& numbers) {
+  const double z = 2 * numbers.next_double() - 1, angle = 2 * pi * numbers.next_double();
   const double r = std::sqrt(std::max(0.0, 1 - z * z));
   const Vec3d sum = normal + Vec3d(r * std::cos(angle), r * std::sin(angle), z);
   return sum.length2() > 1e-12 ? sum.normalized() : normal;
@@ -45,7 +31,7 @@ class Bounces {
     for (std::size_t c = 0; c < lobes_.size(); ++c) whole_[c] = lobe_whole(lobes_[c]);
   }
 
-  [[nodiscard]] Sums texel(int x, int y, const std::vector<WeightedRay>& rays, Numbers numbers) const {
+  [[nodiscard]] Sums texel(int x, int y, const std::vector<WeightedRay>& rays, SplitMix64 numbers) const {
     Sums sums{};
     for (const WeightedRay& ray : rays) {
       if (ray.direction.z <= 0) continue;
@@ -58,7 +44,7 @@ class Bounces {
   }
 
  private:
-  void follow(HeightHit hit, Numbers& numbers, Sums& sums) const {
+  void follow(HeightHit hit, SplitMix64& numbers, Sums& sums) const {
     double share = 1;
     for (int bounce = 1; bounce <= options_.bounces; ++bounce) {
       share *= albedo(hit.place);
@@ -95,10 +81,10 @@ void add_bounces(const HeightField& field, const GenerateOptions& options, int f
     if (stop && stop()) return;
     const int y = row + first_row;
     for (int x = 0; x < field.width(); ++x) {
-      Numbers numbers((static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)) *
-                          0xd6e8feb86659fd93ULL +
-                      options.seed);
-      const auto set = static_cast<std::uint64_t>(numbers.next() * 0x1p32);
+      SplitMix64 numbers((static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x)) *
+                             0xd6e8feb86659fd93ULL +
+                         options.seed);
+      const auto set = static_cast<std::uint64_t>(numbers.next_double() * 0x1p32);
       const Sums more = bounces.texel(x, y, rays.set(set), numbers);
       const auto texel = weights.image.texel(x, row);
       for (std::size_t c = 0; c < more.size(); ++c) texel[c] += static_cast<float>(more[c]);

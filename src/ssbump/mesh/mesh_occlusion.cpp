@@ -1,5 +1,6 @@
 #include "ssbump/mesh/mesh_occlusion.h"
 
+#include "sampling/splitmix64.h"
 #include "ssbump/generate/hemisphere_rays.h"
 #include "ssbump/mesh/triangle_tree.h"
 
@@ -36,12 +37,6 @@ struct Box {
   [[nodiscard]] double diagonal() const { return low.x > high.x ? 0 : Vec3d(high - low).length(); }
 };
 
-std::uint64_t mixed(std::uint64_t x) {  // SplitMix64's finaliser
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
-
 /// A point of the detail.
 struct Detail {
   Vec3 position;
@@ -73,7 +68,7 @@ class Measurement {
 
   [[nodiscard]] TexelSum measure(const LowTexel& texel) const {
     TexelSum sum;
-    std::uint64_t number = mixed(options_.seed + (std::uint64_t(texel.y) * options_.width + texel.x));
+    std::uint64_t number = mix64(options_.seed + (std::uint64_t(texel.y) * options_.width + texel.x));
     for (const LowPlace& place : texel.places) {
       ++number;
       const std::optional<Detail> detail = find(place);

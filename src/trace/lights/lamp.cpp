@@ -1,7 +1,8 @@
 #include "trace/lights/lamp.h"
 
-#include "sampling/warps.h"
-#include "trace/lights/light_rectangle.h"
+#include "sampling/maps.h"
+#include "sampling/orthonormal_basis.h"
+#include "sampling/spherical_rectangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,12 +35,12 @@ LightSample sample_disk(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   const float ratio = lamp.radius / centre.distance;
   const float slant = std::sqrt(1 + ratio * ratio);            // 1 / cosine at the rim
   const float height = ratio * ratio / (slant * (slant + 1));  // 1 - cosine, without cancellation
-  const Vec3 local = cone_direction(height, u);
+  const Vec3 local = uniform_cone(height, u);
   LightSample sample;
-  sample.direction = Axes(centre.direction).to_world(local);
+  sample.direction = OrthonormalBasis(centre.direction).to_world(local);
   sample.distance = centre.distance / std::max(local.z, 1e-6F);
   sample.radiance = lamp.radiance * spot_share(lamp.spot, -sample.direction);
-  sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : cone_density(height);
+  sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : uniform_cone_pdf(height);
   return sample;
 }
 
@@ -58,15 +59,15 @@ LightSample sample_sphere(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   LightSample sample;
   float height = 2;
   if (inside) {
-    sample.direction = cone_direction(2, u);
+    sample.direction = uniform_cone(2, u);
   } else {
     const float sine = lamp.radius / centre.distance;
     height = sine * sine / (1 + std::sqrt(1 - sine * sine));
-    sample.direction = Axes(centre.direction).to_world(cone_direction(height, u));
+    sample.direction = OrthonormalBasis(centre.direction).to_world(uniform_cone(height, u));
   }
   sample.distance = sphere_distance(way, sample.direction, lamp.radius, inside);
   sample.radiance = lamp.radiance * (inside ? 1.0F : spot_share(lamp.spot, -sample.direction));
-  sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : cone_density(height);
+  sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : uniform_cone_pdf(height);
   return sample;
 }
 
@@ -79,9 +80,9 @@ LightSample sample_sun(const Lamp& lamp, const Vec2& u) {
     sample.direction = -lamp.axis;
     return sample;
   }
-  const Axes frame(-lamp.axis);
+  const OrthonormalBasis frame(-lamp.axis);
   if (lamp.flat_sun) {
-    const Vec2 place = disk_place(u) * lamp.radius;
+    const Vec2 place = uniform_disk(u) * lamp.radius;
     const float slant = std::sqrt(1 + place.length2());
     sample.direction = frame.to_world(Vec3(place.x, place.y, 1) / slant);
     sample.pdf = slant * slant * slant / (pi_f * lamp.radius * lamp.radius);
@@ -90,8 +91,8 @@ LightSample sample_sun(const Lamp& lamp, const Vec2& u) {
   }
   const float slant = std::sqrt(1 + lamp.radius * lamp.radius);
   const float height = lamp.radius * lamp.radius / (slant * (slant + 1));
-  sample.direction = frame.to_world(cone_direction(height, u));
-  sample.pdf = cone_density(height);
+  sample.direction = frame.to_world(uniform_cone(height, u));
+  sample.pdf = uniform_cone_pdf(height);
   return sample;
 }
 
@@ -137,16 +138,16 @@ LightSample sample_rectangle(const Lamp& lamp, const Vec3& point, const Vec2& u)
   const Vec3 half_u = lamp.u * ((reach.u1 - reach.u0) / 2), half_v = lamp.v * ((reach.v1 - reach.v0) / 2);
   const Vec3 centre =
       lamp.position + lamp.u * ((reach.u1 + reach.u0) / 2) + lamp.v * ((reach.v1 + reach.v0) / 2);
-  const SeenRectangle seen(point, centre, half_u, half_v);
+  const SphericalRectangle seen(point, centre, half_u, half_v);
   if (!seen.usable()) {
     const Vec3 place = centre + half_u * (2 * u.x - 1) + half_v * (2 * u.y - 1);
     return by_area(lamp, point, place, 1 / (4 * half_u.cross(half_v).length()));
   }
-  LightSample sample = wo(point, seen.place(u));
+  LightSample sample = wo(point, seen.sample(u));
   const float cosine = -sample.direction.dot(lamp.axis);
   const float share = cosine > 0 ? spread_share(lamp, cosine) : 0.0F;
   sample.radiance = lamp.radiance * share;
-  sample.pdf = share > 0 && sample.distance > 0 ? 1 / seen.solid_angle() : 0.0F;
+  sample.pdf = share > 0 && sample.distance > 0 ? seen.pdf() : 0.0F;
   return sample;
 }
 
@@ -157,7 +158,7 @@ LightSample sample_ellipse(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   const Reach reach = reach_of(lamp, point, height);
   if (reach.empty()) return {};
   const float share = (reach.u1 - reach.u0) * (reach.v1 - reach.v0);
-  Vec2 place = disk_place(u);
+  Vec2 place = uniform_disk(u);
   float area = pi_f;
   if (share < area) {
     area = share;

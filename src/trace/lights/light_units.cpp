@@ -1,6 +1,6 @@
 #include "trace/lights/light_units.h"
 
-#include "sampling/warps.h"
+#include "sampling/maps.h"
 
 #include <algorithm>
 #include <cmath>

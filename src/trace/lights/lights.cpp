@@ -1,6 +1,6 @@
 #include "trace/lights/lights.h"
 
-#include "sampling/warps.h"
+#include "sampling/maps.h"
 #include "trace/geometry/surface_materials.h"
 #include "trace/lights/emissive_triangle.h"
 #include "trace/lights/lamp.h"

@@ -1,6 +1,7 @@
 #include "trace/lights/world_light.h"
 
-#include "sampling/warps.h"
+#include "sampling/maps.h"
+#include "sampling/orthonormal_basis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,19 +149,19 @@ LightSample WorldLight::sample_constant(const Vec3& normal, const Vec2& u, float
   LightSample sample;
   sample.radiance = constant_;
   if (normal == Vec3(0, 0, 0)) {
-    sample.direction = cone_direction(2, u);
+    sample.direction = uniform_cone(2, u);
   } else {
-    const Vec3 local = extra < 0.5F ? cosine_direction(u) : cone_direction(1, u);
-    sample.direction = Axes(normal).to_world(local);
+    const Vec3 local = extra < 0.5F ? cosine_hemisphere(u) : uniform_cone(1, u);
+    sample.direction = OrthonormalBasis(normal).to_world(local);
   }
   sample.pdf = constant_pdf(normal, sample.direction);
   return sample;
 }
 
 float WorldLight::constant_pdf(const Vec3& normal, const Vec3& direction) {
-  if (normal == Vec3(0, 0, 0)) return cone_density(2);
+  if (normal == Vec3(0, 0, 0)) return uniform_cone_pdf(2);
   const float cosine = normal.dot(direction);
-  return cosine > 0 ? 0.5F * (cosine / pi_f + cone_density(1)) : 0.0F;
+  return cosine > 0 ? 0.5F * (cosine / pi_f + uniform_cone_pdf(1)) : 0.0F;
 }
 
 }  // namespace rnmbake

@@ -1,6 +1,4 @@
-#include "trace/lights/light_rectangle.h"
-
-#include "sampling/warps.h"
+#include "sampling/spherical_rectangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +13,8 @@ constexpr float nearest_plane = 1e-4F;  // distance to the plane as a share of t
 
 }  // namespace
 
-SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& half_u, const Vec3& half_v)
+SphericalRectangle::SphericalRectangle(const Vec3& point, const Vec3& centre, const Vec3& half_u,
+                                       const Vec3& half_v)
     : point_(point) {
   const float length_u = half_u.length(), length_v = half_v.length();
   if (!(length_u > 0) || !(length_v > 0)) return;
@@ -23,20 +22,20 @@ SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& 
   y_ = half_v / length_v;
   if (std::abs(x_.dot(y_)) > right_angle) return;
   z_ = x_.cross(y_);
-  const Vec3 way = centre - point;
-  // Seen from afar places even by area are as good, and cheaper.
-  const float ray_offset = way.length() - (length_u + length_v);
-  if (ray_offset > 0 && 4 * length_u * length_v < far * ray_offset * ray_offset) return;
-  z0_ = way.dot(z_);
+  const Vec3 to_centre = centre - point;
+  // Seen from afar, sampling by area is as good, and cheaper.
+  const float nearest = to_centre.length() - (length_u + length_v);
+  if (nearest > 0 && 4 * length_u * length_v < far * nearest * nearest) return;
+  z0_ = to_centre.dot(z_);
   if (z0_ > 0) {
     z_ = -z_;
     z0_ = -z0_;
   }
   if (-z0_ < nearest_plane * (length_u + length_v)) return;
-  x0_ = way.dot(x_) - length_u;
-  x1_ = way.dot(x_) + length_u;
-  y0_ = way.dot(y_) - length_v;
-  y1_ = way.dot(y_) + length_v;
+  x0_ = to_centre.dot(x_) - length_u;
+  x1_ = to_centre.dot(x_) + length_u;
+  y0_ = to_centre.dot(y_) - length_v;
+  y1_ = to_centre.dot(y_) + length_v;
 
   // The z of the normals of the four planes through the point and a side; x and y follow.
   const double z = z0_;
@@ -53,7 +52,7 @@ SeenRectangle::SeenRectangle(const Vec3& point, const Vec3& centre, const Vec3& 
   usable_ = solid_angle_ > smallest;
 }
 
-Vec3 SeenRectangle::place(const Vec2& u) const {
+Vec3 SphericalRectangle::sample(const Vec2& u) const {
   const double z0 = z0_, y0 = y0_, y1 = y1_;
   const double au = u.x * solid_angle_ + k_;
   const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
