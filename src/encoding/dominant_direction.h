@@ -1,4 +1,4 @@
-// encoding/dominant_direction.h - a lightmap's texel as light from one direction and light from everywhere.
+// encoding/dominant_direction.h - splits a texel's irradiance into a dominant direction and an ambient part.
 #pragma once
 
 #include "base/math.h"
@@ -11,7 +11,7 @@
 
 namespace rnmbake {
 
-/// E(n)/pi = ambient + gradient . n, for each of R, G, B: an SH-2 fit of irradiance.
+/// Irradiance linear in the normal (SH bands 0 and 1): E(n)/pi = ambient + gradient . n, for each of R, G, B.
 struct LinearLight {
   std::array<float, 3> ambient{};
   std::array<Vec3, 3> gradient{Vec3(0), Vec3(0), Vec3(0)};
@@ -21,8 +21,9 @@ struct LinearLight {
   }
 };
 
-/// The one such function that has the four baked values at (0, 0, 1) and at the three directions of the
-/// Half-Life 2 basis. A lone sun above the horizon of all three comes out as ambient 0, gradient towards it.
+/// Interpolates the four baked values at (0, 0, 1) and at the three directions of the Half-Life 2 basis,
+/// which determine such a function. A lone sun above the horizon of all three gives ambient 0, gradient
+/// towards it.
 [[nodiscard]] inline LinearLight fit_linear(const std::array<float, 3>& flat,
                                             const std::array<std::array<float, 3>, 3>& rnm) {
   const auto basis = rnm_basis();
@@ -37,9 +38,8 @@ struct LinearLight {
   return light;
 }
 
-/// Where most light comes from: the gradient of its luminance (Rec. 709), unit length. One that points below
-/// the surface, as the fit makes of suns near the horizon, is raised to the horizon. Nothing where no
-/// direction stands out.
+/// Unit gradient of the luminance (Rec. 709) of the irradiance. One that points below the surface, as the fit
+/// has for suns near the horizon, is raised to the horizon. Nothing where the gradient is all but zero.
 [[nodiscard]] inline std::optional<Vec3> dominant_direction(const LinearLight& light) {
   const auto luminance = [](const auto& rgb) {
     return rgb[0] * 0.2126F + rgb[1] * 0.7152F + rgb[2] * 0.0722F;
@@ -51,8 +51,8 @@ struct LinearLight {
   return towards / length;
 }
 
-/// E/pi where only `left` of the light from `direction` arrives. The directional part of a colour is what its
-/// gradient has along `direction`, between 0 and all of E; the rest is not touched.
+/// E/pi where only the share `left` of the light from `direction` arrives. The directional part of a channel
+/// is the component of its gradient along `direction`, clamped to [0, E]; the rest stays.
 [[nodiscard]] inline float shadowed(const LinearLight& light, std::size_t colour, const Vec3& direction,
                                     const Vec3& normal, float left) {
   const float all = std::max(0.0F, light.at(colour, normal));

@@ -23,7 +23,8 @@ namespace rnmbake {
           0.5F * y2 * (d.x * d.x - d.y * d.y)};
 }
 
-/// What a clamped cosine does to the coefficients of radiance, over pi: E/pi = sum of A(l) c(l, m) Y(l, m).
+/// Zonal coefficients A(l) of the clamped cosine over pi, which turn coefficients c of radiance into
+/// irradiance: E/pi = sum of A(l) c(l, m) Y(l, m).
 inline constexpr std::array<float, 3> sh_cosine_over_pi{1.0F, 2.0F / 3, 1.0F / 4};
 
 }  // namespace rnmbake

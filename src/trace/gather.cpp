@@ -13,9 +13,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::size_t texels_at_once = 1 << 17;  // of targets that are worked on together
+constexpr std::size_t texels_at_once = 1 << 17;  // of a group of targets
 
-/// Counts finished samples and says so, one thread at a time.
+/// Adds up finished work and reports progress, one thread at a time.
 class Reporter {
  public:
   Reporter(double total, const std::function<void(const GatherProgress&)>& say) : total_(total), say_(say) {}
@@ -32,7 +32,7 @@ class Reporter {
   const std::function<void(const GatherProgress&)>& say_;
 };
 
-/// A few targets, worked on together so that small ones leave no core idle.
+/// A few targets gathered together, so that small ones leave no core idle.
 class Group {
  public:
   Group(std::vector<std::unique_ptr<GatherJob>> jobs, const GatherOptions& options, Reporter& reporter,
@@ -104,7 +104,7 @@ using Stop = std::function<bool()>;
 /// False where it was stopped.
 bool gather_once(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
                  const Done& done, const Say& say, const Stop& stop) {
-  double total = 0;  // texels, about: which of them are covered is found out target by target
+  double total = 0;  // texels, covered or not: coverage is known target by target
   for (const GatherTarget& target : targets) total += double(target.width) * target.height;
   Reporter reporter(std::max(1.0, total), say);
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -125,7 +125,7 @@ bool gather_once(const TraceScene& scene, std::span<const GatherTarget> targets,
   return true;
 }
 
-/// With self-reflection the light itself depends on the basis vector: one pass for each.
+/// Gathers each direction apart: with self-reflection the incident radiance depends on the basis vector.
 void gather_each(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
                  const Done& done, const Say& say, const Stop& stop) {
   std::vector<Gathered> results(targets.size());
@@ -133,7 +133,7 @@ void gather_each(const TraceScene& scene, std::span<const GatherTarget> targets,
     GatherOptions one = options;
     one.directions = {options.directions[k]};
     one.sh_order = 0;
-    if (one.faults.tilt_clamp) one.reuse = false;  // then what a place sends back depends on who looks
+    if (one.faults.tilt_clamp) one.reuse = false;  // reflected radiance depends on the direction
     const auto merge = [&](std::size_t target, Gathered&& gathered) {
       Gathered& result = results[target];
       gathered.directions.insert(gathered.directions.begin(),

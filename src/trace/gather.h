@@ -9,9 +9,9 @@
 
 namespace rnmbake {
 
-/// With RecipeFaults the result is what the published recipe bakes, and each direction is seen by its own
-/// rays. Deterministic for a seed at any number of threads. `done` receives each target when it is complete,
-/// from the calling thread. `stop` is polled; when it says true, gather() returns at once.
+/// With RecipeFaults the result is what the published recipe bakes; self-reflection traces each direction
+/// apart. Deterministic for a seed at any number of threads. `done` receives each target when it is complete,
+/// on the calling thread. `stop` is polled; gather() returns as soon as it is true.
 void gather(const TraceScene& scene, std::span<const GatherTarget> targets, const GatherOptions& options,
             const std::function<void(std::size_t, Gathered&&)>& done,
             const std::function<void(const GatherProgress&)>& progress = {},

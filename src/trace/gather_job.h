@@ -1,8 +1,8 @@
-// trace/gather_job.h - one target while light is gathered for it: its blocks of texels, and how many samples
-// each gets.
+// trace/gather_job.h - gathering for one target: its blocks of texels, and the number of samples of each.
 #pragma once
 
 #include "trace/block.h"
+#include "trace/texel_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace rnmbake {
 
 inline constexpr int wanted_batches = 16;
-inline constexpr int pilot_samples = 16;  // to learn how noisy a block is
+inline constexpr int pilot_samples = 16;  // to estimate the variance of a block
 
-/// A block of texels, and all that is known of it.
+/// A block of texels with its plan and its statistics.
 struct TexelBlock {
   std::size_t first = 0, count = 0;  // in TexelSamples::texels()
   int batch_samples = 1, batches = 0;
@@ -29,7 +28,6 @@ struct TexelBlock {
   [[nodiscard]] std::int64_t samples() const { return std::int64_t(statistics->batches()) * batch_samples; }
 };
 
-/// One target at work.
 class GatherJob {
  public:
   GatherJob(const TraceScene& scene, std::size_t index, const GatherTarget& target,
@@ -40,27 +38,26 @@ class GatherJob {
         options_(options),
         texel_samples_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
     if (options.faults.any()) own_.emplace(scene, target);
-    for (std::size_t first = 0; first < texels(); first += BlockGatherer::texels) {
-      blocks_.push_back({first, std::min(BlockGatherer::texels, texels() - first), 1, 0, {}, 0, {}});
+    for (std::size_t first = 0; first < texels(); first += BlockGatherer::most_receivers) {
+      blocks_.push_back({first, std::min(BlockGatherer::most_receivers, texels() - first), 1, 0, {}, 0, {}});
     }
   }
 
   [[nodiscard]] std::size_t index() const { return index_; }
-  [[nodiscard]] std::size_t texels() const { return texel_samples_.texels().size(); }
+  [[nodiscard]] std::size_t texels() const { return texel_samples_.size(); }
   std::vector<TexelBlock>& blocks() { return blocks_; }
 
-  /// Takes a block as far as its plan says. `stage` separates the noise of the pilot from what counts.
-  /// `go_on` is asked after each batch, with the share of this work that the batch was.
+  /// Gathers the batches that a block's plan asks for. `stage`: makes the pilot's samples independent of the
+  /// rest. `go_on` is called after each batch with its share of the work, and ends the work by false.
   void work(TexelBlock& block, std::uint64_t stage, const std::function<bool(double)>& go_on) const {
     BlockGatherer gatherer(scene_, texel_samples_, options_, own_ ? &*own_ : nullptr);
     if (!block.statistics)
       block.statistics = std::make_unique<BatchStatistics>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
-    const std::span texels(&texel_samples_.texels()[block.first], block.count);
     const double share = 1.0 / std::max(1, block.batches - block.statistics->batches());
     while (block.statistics->batches() < block.batches) {
       const auto number = static_cast<std::uint64_t>(block.statistics->batches());
-      gatherer.batch(texels, block.batch_samples, hash_of(seed, number), *block.statistics);
+      gatherer.batch(block.first, block.count, block.batch_samples, hash_of(seed, number), *block.statistics);
       if (!go_on(share)) return;
     }
     block.rays += gatherer.rays();
@@ -74,10 +71,12 @@ class GatherJob {
     block.batches = static_cast<int>((wanted + block.batch_samples - 1) / block.batch_samples);
   }
 
-  /// From a pilot: samples for each block so that the fewest in all give the error asked for (Neyman 1934).
+  /// Allocates samples to blocks by the pilot's variances, so that the fewest give the wanted error (Neyman
+  /// 1934).
   void plan_for_error() {
     const std::vector<double> means = direction_means();
-    std::vector<double> noise;  // of one sample, over the mean of its direction: the worst direction's
+    std::vector<double>
+        noise;  // standard deviation of a sample over its direction's mean: the worst direction's
     double sum = 0;
     for (const TexelBlock& block : blocks_) {
       double square = 0;
@@ -93,7 +92,7 @@ class GatherJob {
     }
   }
 
-  /// False where the error asked for is reached, or as many samples as allowed were taken.
+  /// Plans more batches; false where the wanted error or the largest number of samples is reached.
   bool plan_more() {
     const double ratio = relative_error() / options_.error;
     if (!(ratio > 1)) return false;
@@ -127,24 +126,24 @@ class GatherJob {
 
  private:
   void write(const TexelBlock& block, Gathered& out) const {
-    const auto put = [](FloatImage& image, const TexelSample& site, const Vec3& value) {
-      std::copy_n(&value.x, 3, image.texel(site.x, site.y).begin());
+    const auto put = [](FloatImage& image, const TexelSample& texel, const Vec3& value) {
+      std::copy_n(&value.x, 3, image.texel(texel.x, texel.y).begin());
     };
     out.paths += block.samples() * std::int64_t(block.count);
     out.rays += block.rays;
     for (std::size_t i = 0; i < block.count; ++i) {
-      const TexelSample& site = texel_samples_.texels()[block.first + i];
-      out.coverage.texel(site.x, site.y)[0] = 1;
-      out.validity.texel(site.x, site.y)[0] =
+      const TexelSample& texel = texel_samples_.texels()[block.first + i];
+      out.coverage.texel(texel.x, texel.y)[0] = 1;
+      out.validity.texel(texel.x, texel.y)[0] =
           1 - static_cast<float>(double(block.back_faces[i]) / double(block.samples()));
       for (std::size_t k = 0; k < out.directions.size(); ++k) {
         const Vec3 square = block.statistics->squared_error(i, k);
-        put(out.directions[k].radiance, site, block.statistics->mean(i, k));
-        put(out.directions[k].standard_error, site,
+        put(out.directions[k].radiance, texel, block.statistics->mean(i, k));
+        put(out.directions[k].standard_error, texel,
             {std::sqrt(square.x), std::sqrt(square.y), std::sqrt(square.z)});
       }
       for (std::size_t c = 0; c < out.sh.size(); ++c) {
-        put(out.sh[c], site, block.statistics->mean(i, out.directions.size() + c));
+        put(out.sh[c], texel, block.statistics->mean(i, out.directions.size() + c));
       }
     }
     const double share = double(block.count) / covered();

@@ -12,12 +12,12 @@
 
 namespace rnmbake {
 
-/// What a texel averages over around its centre (clipped to the triangle that owns the texel).
+/// The square around a texel's centre that it averages over (clipped to the triangle that owns the texel).
 enum class Footprint { centre, half, full };  // half: Blender < 5, full: Blender >= 5
 
-/// What becomes of a place in the footprint that lies past the triangle's edge. mirror: it is folded back in,
-/// one barycentric weight after the other (Blender < 4); retry: up to ten others are tried, then the centre
-/// is taken (Blender >= 4).
+/// How a sample of the footprint that lies past the triangle's edge is moved inside. mirror: folded back, one
+/// barycentric coordinate after the other (Blender < 4); retry: replaced by up to ten others, then by the
+/// centre (Blender >= 4).
 enum class PastEdge { mirror, retry };
 
 /// The errors of the published recipe, each of which the tracer can make too (docs/reference.md).
@@ -25,9 +25,9 @@ struct RecipeFaults {
   bool tilt_clamp = false;       // Blender 3.4, 3.5: the closure's normal is bent towards the surface's
   bool bump_shadowing = false;   // a factor below 1 on closures whose normal is not the surface's
   bool self_reflection = false;  // the object's own surface has the basis normal for its bounces too
-  bool below_horizon = false;    // lamps under the surface but above the basis' horizon count
-  bool no_diffuse = false;       // surfaces that reflect nothing, such as lamps, bake black; colours that
-                                 // others do not reflect are made up
+  bool below_horizon = false;    // lamps below the surface but above the basis direction's horizon count
+  bool no_diffuse = false;  // surfaces without albedo, such as lamps, bake black; colour channels without
+                            // albedo get the mean of the others
   [[nodiscard]] bool any() const {
     return tilt_clamp || bump_shadowing || self_reflection || below_horizon || no_diffuse;
   }
@@ -47,11 +47,12 @@ struct GatherOptions {
   int samples = 256;  // paths for each texel; with `error` the most
   double error = 0;   // > 0: stop where the relative standard error of the target's texels (RMS over them,
                       // over their mean) is that small
-  int bounces = -1;   // surfaces that a path may bounce off after the texel's own; -1: no limit
+  int bounces = -1;   // of a path, the texel's own surface not counted; -1: no limit
   std::uint64_t seed = 0;
-  int threads = 0;                                 // 0: all cores
-  bool light_sampling = true, sample_bsdf = true;  // the two ways to find light; off only to test the other
-  bool reuse = true;                               // texels share the ends of their paths (trace/block.h)
+  int threads = 0;  // 0: all cores
+  bool sample_lights = true,
+       sample_bsdf = true;  // strategies that MIS combines; off only in tests of the other
+  bool reuse = true;        // texels share the vertices of their paths (trace/block.h)
   RecipeFaults faults;
   std::string blender_version;  // whose faults
 };
@@ -67,7 +68,7 @@ struct Gathered {
   std::vector<GatheredDirection> directions;
   std::vector<FloatImage> sh;  // RGB each, order l, m = 0: (0,0), (1,-1), (1,0), (1,1), ...; tangent space
   FloatImage coverage;         // one channel, 0 or 1
-  FloatImage validity;         // one channel: share of the first rays that did not meet a back face
+  FloatImage validity;         // one channel: share of the primary rays that did not meet a back face
   std::int64_t paths = 0;      // traced for this target
   std::int64_t rays = 0;
 };

@@ -9,14 +9,14 @@
 namespace rnmbake {
 namespace {
 
-// Bounces before Russian roulette. Where texels share what a path's end is worth, long paths are dear.
+// Bounces before Russian roulette. Early: receivers share the first vertex of a path, not the rest of it.
 constexpr int first_roulette = 1;
 
 float largest(const Vec3& c) {
   return std::max({c.x, c.y, c.z});
 }
 
-/// What reflects at a vertex, and how much of what comes from a direction.
+/// The closure at a vertex: a diffuse one, or what the recipe makes of it.
 struct Reflector {
   Closure closure;
   const Recipe* recipe = nullptr;  // null: an ideal diffuse surface
@@ -33,26 +33,26 @@ struct Reflector {
   [[nodiscard]] bool sees_below_face() const { return recipe != nullptr && recipe->faults().below_horizon; }
 };
 
-/// Irradiance/pi at a vertex from one light that was chosen by chance, for a path of so many bounces before.
+/// Next-event estimation at a vertex: irradiance / pi from one sampled light. `bounces`: of the path so far.
 Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflector& reflector,
                    const PathOptions& options, int bounces, Sampler& sampler, std::int64_t& rays) {
   const LightSample light = scene.lights().sample(vertex.start(), reflector.closure.normal, sampler.next3());
   const float cosine = reflector.cosine(light.direction);
-  // Not from under the face, where chance would not find it either.
+  // Light from below the face is left out, since BSDF sampling never finds it.
   const bool above = vertex.face.dot(light.direction) > 0;
   const bool counts = above || (reflector.sees_below_face() && sampled_below(scene.lights(), light));
   if (!(light.pdf > 0) || !(cosine > 0) || !counts || bounces > light.max_bounces) return Vec3(0);
   ++rays;
   const Vec3 start = above ? vertex.start() : options.own->start_below(vertex, light.direction);
-  const Visibility left =
+  const Visibility visibility =
       scene.visibility({start, light.direction, shadow_tmax(light.distance, vertex.ray_offset)});
-  if (left.blocked()) return Vec3(0);
-  const float other = reflector.closure.normal.dot(light.direction) * inv_pi;
-  float share = 1;
-  if (light.sample_bsdf && options.sample_bsdf) {
-    share = above ? balance_heuristic(light.pdf, other) : power_heuristic(light.pdf, other);
+  if (visibility.blocked()) return Vec3(0);
+  const float bsdf_pdf = cosine_hemisphere_pdf(reflector.closure.normal.dot(light.direction));
+  float mis = 1;
+  if (light.bsdf_can_hit && options.sample_bsdf) {
+    mis = above ? balance_heuristic(light.pdf, bsdf_pdf) : power_heuristic(light.pdf, bsdf_pdf);
   }
-  return light.radiance * (cosine * inv_pi * share / light.pdf) * left.transmittance;
+  return light.radiance * (cosine * inv_pi * mis / light.pdf) * visibility.transmittance;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
     if (!(largest(throughput) > 0)) break;
     const Reflector reflector(vertex, options);
     const Vec3& normal = reflector.closure.normal;
-    if (options.light_sampling) {
+    if (options.sample_lights) {
       const int before = options.before + bounce;
       sum += throughput * sampled_light(scene, vertex, reflector, options, before, sampler, rays);
     }
@@ -76,22 +76,22 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
       throughput /= survival;
     }
     const Vec3 direction = unit(OrthonormalBasis(normal).to_world(cosine_hemisphere_polar(sampler.next2())));
-    if (!(direction.dot(vertex.face) > 0)) break;  // under the face
-    const float pdf = direction.dot(normal) * inv_pi;
+    if (!(direction.dot(vertex.face) > 0)) break;  // below the face
+    const float pdf = cosine_hemisphere_pdf(direction.dot(normal));
     if (reflector.recipe != nullptr) throughput *= reflector.cosine(direction) * inv_pi / pdf;
-    const auto by_bsdf = [&](float light_pdf) {
-      return mis_weight(options.light_sampling, options.sample_bsdf, pdf, light_pdf);
+    const auto bsdf_weight = [&](float light_pdf) {
+      return mis_weight(options.sample_lights, options.sample_bsdf, pdf, light_pdf);
     };
     const Ray ray{vertex.start(), direction, infinity};
     ++rays;
     const PathHit next = trace_through(scene, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
-      const float other = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
-      sum += throughput * radiance * by_bsdf(other);
+      const float light_pdf = lights.triangle_pdf(ray.origin, normal, hit.triangle, direction, hit.distance);
+      sum += throughput * radiance * bsdf_weight(light_pdf);
     });
     throughput *= next.weight();
     if (!next.met) {
-      const float other = lights.world_pdf(ray.origin, normal, direction);
-      sum += throughput * lights.world(direction) * by_bsdf(other);
+      const float light_pdf = lights.world_pdf(ray.origin, normal, direction);
+      sum += throughput * lights.world(direction) * bsdf_weight(light_pdf);
       break;
     }
     vertex = vertex_at(scene, ray, next.hit);

@@ -1,4 +1,4 @@
-// trace/ray_log.h - some of the rays that were shot, to compare with Embree alone on the same ones.
+// trace/ray_log.h - a log of traced rays, to time Embree alone on the same ones.
 #pragma once
 
 #include "base/math.h"
@@ -10,13 +10,13 @@
 
 namespace rnmbake {
 
-/// Keeps consecutive rays, whatever thread they come from, until it is full. Thread-safe.
+/// Keeps consecutive rays of all threads until it is full. Thread-safe.
 class RayLog {
  public:
   struct Entry {
     Vec3 origin, direction;
     float to = 0;
-    bool shadow = false;  // asked only whether something is in the way
+    bool shadow = false;  // an occlusion query
   };
   explicit RayLog(std::size_t capacity) : entries_(capacity) {}
 

@@ -10,8 +10,8 @@
 namespace rnmbake {
 namespace {
 
-/// Bends `n` towards the face until the mirror image of `towards` is at least a little above the face: what
-/// Cycles did to every closure before 3.6. The bent normal lies in the plane of `n` and the face's normal;
+/// Bends `n` towards the face normal until the mirror image of `wo` is at least a little above the face, as
+/// Cycles did with every closure before 3.6. The bent normal lies in the plane of `n` and the face normal;
 /// with the height of the mirrored direction fixed, its squared height solves a quadratic equation.
 Vec3 tilt_clamped(const Vec3& n, const Vec3& face, const Vec3& wo) {
   const float up = wo.dot(face), least = std::min(0.9F * up, 0.01F);
@@ -51,8 +51,8 @@ bool is_at_least(const std::string& version, int major, int minor) {
 Recipe::Recipe(const RecipeFaults& faults, const std::string& blender_version)
     : faults_(faults), microfacets_(is_at_least(blender_version, 4, 5)) {}
 
-Closure Recipe::closure(const Vec3& bent, const Vec3& smooth, const Vec3& face, const Vec3& wo) const {
-  return {faults_.tilt_clamp ? tilt_clamped(bent, face, wo) : bent, smooth, true};
+Closure Recipe::closure(const Vec3& basis, const Vec3& smooth, const Vec3& face, const Vec3& wo) const {
+  return {faults_.tilt_clamp ? tilt_clamped(basis, face, wo) : basis, smooth, true};
 }
 
 float Recipe::shadowing(const Closure& closure, const Vec3& direction) const {
@@ -110,7 +110,7 @@ Vec3 OwnSurface::albedo(std::uint32_t triangle, const Vec3& weights) const {
                                    uv[0] * weights.x + uv[1] * weights.y + uv[2] * weights.z);
 }
 
-std::uint32_t OwnSurface::place_of(const Vertex& vertex) const {
+std::uint32_t OwnSurface::triangle_of(const Vertex& vertex) const {
   if (scene_.triangles().object[vertex.triangle] != object_) return absent;
   const std::uint32_t source = scene_.triangles().source[vertex.triangle];
   return source < of_source_.size() ? of_source_[source] : absent;
@@ -130,17 +130,17 @@ Vec3 OwnSurface::start_below(std::uint32_t triangle, const Vec3& weights, const 
     curved |= corner.frame.normal.dot(flat.normal) < 1 - 1e-6F;
   }
   if (curved && normal.dot(direction) > 0) return start + terminator_offset(smooth, weights);
-  // Cycles passes by the triangle that it starts from.
+  // In Cycles shadow rays do not hit the triangle that they start from.
   return start - flat.normal * (side * 2 * (ray_offset_at(start) + flat.height));
 }
 
 Vec3 OwnSurface::start_below(const Vertex& vertex, const Vec3& direction) const {
   const Vec3 weights(1 - vertex.b1 - vertex.b2, vertex.b1, vertex.b2);
-  return start_below(place_of(vertex), weights, vertex.start(), direction, vertex.back ? -1.0F : 1.0F);
+  return start_below(triangle_of(vertex), weights, vertex.start(), direction, vertex.back ? -1.0F : 1.0F);
 }
 
 Vec3 OwnSurface::direction(const Vertex& vertex, const Vec3& basis) const {
-  const auto& corners = surface_.triangles[place_of(vertex)].corners;
+  const auto& corners = surface_.triangles[triangle_of(vertex)].corners;
   const float weights[3] = {1 - vertex.b1 - vertex.b2, vertex.b1, vertex.b2};
   Vec3 sum(0);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -17,7 +17,7 @@ namespace rnmbake {
 namespace {
 
 template <typename T>
-T mixed(const std::vector<T>& corners, const Hit& hit) {
+T interpolated(const std::vector<T>& corners, const Hit& hit) {
   const T* c = &corners[3 * std::size_t(hit.triangle)];
   return c[0] * (1 - hit.b1 - hit.b2) + c[1] * hit.b1 + c[2] * hit.b2;
 }
@@ -26,8 +26,7 @@ float largest(const Vec3& c) {
   return std::max({c.x, c.y, c.z});
 }
 
-/// Of the paths that come to a place, so many go on through it: as much as it lets through, of what it does
-/// not swallow.
+/// Probability of a path to go straight on: the transmittance over all that is not absorbed.
 float transmit_probability(const Vec3& transmittance, const Vec3& albedo) {
   const float through = largest(transmittance);
   return through > 0 ? through / (through + largest(albedo)) : 0;
@@ -35,11 +34,11 @@ float transmit_probability(const Vec3& transmittance, const Vec3& albedo) {
 
 }  // namespace
 
-/// A ray on its way; Embree's filter finds it in the query's context.
+/// State of a query, which Embree's filter function finds in its context.
 struct TraceScene::TransparencyQuery {
   const TraceScene& scene;
-  std::vector<TransparentHit>* transparent_hits = nullptr;  // what is on the way, or ...
-  Visibility visibility;                                    // ... what is left at its end
+  std::vector<TransparentHit>* transparent_hits = nullptr;  // all hits, or ...
+  Visibility visibility;                                    // ... their product
   std::vector<float> seams;                                 // distances of hits on edges
 
   /// A ray along the common edge of two triangles meets both.
@@ -54,7 +53,7 @@ struct TraceScene::TransparencyQuery {
   /// Whether the ray goes on.
   [[nodiscard]] bool pass(const Hit& hit) {
     const std::uint32_t material = scene.triangles_.material[hit.triangle];
-    const Vec2 uv = mixed(scene.triangles_.uv, hit);
+    const Vec2 uv = interpolated(scene.triangles_.uv, hit);
     const Vec3 transmittance = scene.materials_.transmittance(material, uv);
     if (!(largest(transmittance) > 0)) return false;
     if (is_known(hit)) return true;
@@ -69,12 +68,12 @@ struct TraceScene::TransparencyQuery {
   }
 
   static void filter(const RTCFilterFunctionNArguments* arguments) {
-    auto* journey = static_cast<TransparencyQuery*>(embree_user(*arguments));
-    if (journey == nullptr || arguments->valid[0] == 0) return;  // as if it were opaque
+    auto* query_state = static_cast<TransparencyQuery*>(embree_user(*arguments));
+    if (query_state == nullptr || arguments->valid[0] == 0) return;  // as if it were opaque
     const RTCHit at = rtcGetHitFromHitN(arguments->hit, arguments->N, 0);
-    const Hit hit{journey->scene.accelerator_->triangle(at.geomID, at.primID), at.u, at.v,
+    const Hit hit{query_state->scene.accelerator_->triangle(at.geomID, at.primID), at.u, at.v,
                   RTCRayN_tfar(arguments->ray, arguments->N, 0), unit(Vec3(at.Ng_x, at.Ng_y, at.Ng_z))};
-    if (journey->pass(hit)) arguments->valid[0] = 0;
+    if (query_state->pass(hit)) arguments->valid[0] = 0;
   }
 };
 
@@ -93,8 +92,8 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<TransparentHit>
   RTCRayHit query = embree_ray_hit(ray.origin, ray.direction, ray.to);
   if (accelerator_->see_through()) {
     transparent_hits.clear();
-    TransparencyQuery journey{*this, &transparent_hits, {}, {}};
-    embree_intersect(accelerator_->scene(), query, &journey);
+    TransparencyQuery query_state{*this, &transparent_hits, {}, {}};
+    embree_intersect(accelerator_->scene(), query, &query_state);
     std::erase_if(transparent_hits,
                   [&](const TransparentHit& it) { return it.hit.distance > query.ray.tfar; });
     std::sort(transparent_hits.begin(), transparent_hits.end(),
@@ -116,13 +115,13 @@ bool TraceScene::intersect(const Ray& ray, Hit& hit, std::vector<TransparentHit>
 Visibility TraceScene::visibility(const Ray& ray) const {
   if (log_ != nullptr) log_->add({ray.origin, ray.direction, ray.to, true});
   RTCRay query = embree_ray(ray.origin, ray.direction, ray.to);
-  TransparencyQuery journey{*this, nullptr, {}, {}};
+  TransparencyQuery query_state{*this, nullptr, {}, {}};
   if (accelerator_->see_through()) {
-    embree_occluded(accelerator_->scene(), query, &journey);
+    embree_occluded(accelerator_->scene(), query, &query_state);
   } else {
     embree_occluded(accelerator_->scene(), query);
   }
-  return query.tfar < 0 ? Visibility{Vec3(0), 0} : journey.visibility;
+  return query.tfar < 0 ? Visibility{Vec3(0), 0} : query_state.visibility;
 }
 
 void TraceScene::visibility(std::span<const Ray> rays, Visibility* results) const {
@@ -182,16 +181,16 @@ std::size_t TraceScene::bytes() const {
 }
 
 Vec2 picture_uv(const TraceScene& scene, const Hit& hit) {
-  return mixed(scene.triangles().uv, hit);
+  return interpolated(scene.triangles().uv, hit);
 }
 
 Vertex vertex_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
   const Triangles& triangles = scene.triangles();
   Vertex vertex;
-  vertex.position = mixed(triangles.position, hit);
+  vertex.position = interpolated(triangles.position, hit);
   vertex.back = hit.normal.dot(ray.direction) > 0;
   vertex.face = vertex.back ? -hit.normal : hit.normal;
-  const Vec3 smooth = mixed(triangles.normal, hit);
+  const Vec3 smooth = interpolated(triangles.normal, hit);
   const float length = smooth.length();
   vertex.normal = length > 0 ? smooth / (vertex.back ? -length : length) : vertex.face;
   const Vec3* corners = &triangles.position[3 * std::size_t(hit.triangle)];

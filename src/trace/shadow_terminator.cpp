@@ -5,7 +5,7 @@
 namespace rnmbake {
 namespace {
 
-/// Twice the height of a paraboloid that leaves each edge as steeply as its corners' normals say.
+/// Twice the height of the paraboloid whose slopes along the edges follow from the corners' normals.
 float paraboloid(const SmoothTriangle& triangle, const Vec3& weights) {
   float height = 0;
   for (int i = 0; i < 3; ++i) {
@@ -16,30 +16,30 @@ float paraboloid(const SmoothTriangle& triangle, const Vec3& weights) {
   return height;
 }
 
-/// How far a place lies under the planes across the corners' normals, each raised until the triangle is under
-/// it; the least of the three.
-float room(const SmoothTriangle& triangle, const Vec3& place) {
-  std::array<float, 3> rooms{};
+/// Least distance of a point below three planes: each is perpendicular to a corner's normal, and raised until
+/// the triangle lies below it.
+float depth_below_planes(const SmoothTriangle& triangle, const Vec3& position) {
+  std::array<float, 3> depths{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto over = [&](const Vec3& point) {
       return (point - triangle.positions[k]).dot(triangle.normals[k]);
     };
     const float raised =
         std::max({0.0F, over(triangle.positions[(k + 1) % 3]), over(triangle.positions[(k + 2) % 3])});
-    rooms[k] = std::max(0.0F, raised - over(place));
+    depths[k] = std::max(0.0F, raised - over(position));
   }
-  return *std::min_element(rooms.begin(), rooms.end());
+  return *std::min_element(depths.begin(), depths.end());
 }
 
 }  // namespace
 
 Vec3 terminator_offset(const SmoothTriangle& triangle, const Vec3& weights) {
-  Vec3 place(0), normal(0);
+  Vec3 position(0), normal(0);
   for (int k = 0; k < 3; ++k) {
-    place += triangle.positions[static_cast<std::size_t>(k)] * weights[k];
+    position += triangle.positions[static_cast<std::size_t>(k)] * weights[k];
     normal += triangle.normals[static_cast<std::size_t>(k)] * weights[k];
   }
-  return normal * std::max(room(triangle, place), paraboloid(triangle, weights) / 2);
+  return normal * std::max(depth_below_planes(triangle, position), paraboloid(triangle, weights) / 2);
 }
 
 }  // namespace rnmbake

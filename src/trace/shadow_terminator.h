@@ -1,9 +1,9 @@
-// trace/shadow_terminator.h - how far the curved surface that a smooth triangle stands for rises off the flat
-// one.
+// trace/shadow_terminator.h - offset from a smooth-shaded triangle to the curved surface that it
+// approximates.
 //
-// Cycles' "shadow terminator geometry offset", 0.1 unless an object says otherwise, lets rays to lights start
-// up there where they leave at a grazing angle or, as the recipe lets them, under the face. The latter may
-// then meet the triangle itself: what bulges enough lets the light by, what is hollow does not.
+// With Cycles' "shadow terminator geometry offset", 0.1 unless an object says otherwise, shadow rays start on
+// the curved surface where they leave at a grazing angle or, with the recipe, below the face. The latter may
+// then hit the triangle itself: a convex surface can let the light pass, a concave one occludes it.
 #pragma once
 
 #include "base/math.h"
@@ -17,7 +17,7 @@ struct SmoothTriangle {
   std::array<Vec3, 3> normals;  // of the shading, unit
 };
 
-/// From the flat triangle to the curved surface, along the interpolated normal; `weights`: barycentric.
+/// Offset along the interpolated normal; `weights`: barycentric coordinates.
 [[nodiscard]] Vec3 terminator_offset(const SmoothTriangle& triangle, const Vec3& weights);
 
 }  // namespace rnmbake

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_tries = 10;  // as in Cycles; then the texel's centre
 
-/// Interleaves bits: texels that are near each other get numbers that are near each other.
+/// Interleaves bits, so that texels near each other get numbers near each other.
 std::uint32_t morton(std::uint32_t x, std::uint32_t y) {
   const auto spread = [](std::uint32_t v) {
     v = (v | (v << 8)) & 0x00ff00ffU;
@@ -35,7 +35,7 @@ float fold(float value, float limit) {
   return (static_cast<int>(whole) & 1) != 0 ? (1 - rest) * limit : rest * limit;
 }
 
-/// The next of a row of pairs without a pattern.
+/// The next of a pseudo-random sequence of pairs.
 Vec2 another(const Vec2& u) {
   const std::uint64_t bits = hash_of(std::bit_cast<std::uint32_t>(u.x), std::bit_cast<std::uint32_t>(u.y));
   const auto unit = [](std::uint64_t x) { return static_cast<float>(x & 0xffffffU) * 0x1p-24F; };
@@ -76,16 +76,16 @@ TexelSamples::TexelSamples(const Surface& surface, int width, int height, Footpr
 }
 
 Vec3 TexelSamples::mirrored(const TexelSample& texel, const Vec2& u) const {
-  const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
-  // Cycles' order: the first corner's weight within 1, the second's within what is left, the third's the
-  // rest.
+  const Vec2 weights = slopes_[texel.triangle].barycentric(texel, u);
+  // Cycles' order: the coordinate of corner 0 within 1, that of corner 1 within the remainder, corner 2 has
+  // the rest.
   const float b0 = fold(1 - weights.x - weights.y, 1), b1 = fold(weights.x, 1 - b0);
   return {b0, b1, std::max(0.0F, 1 - b0 - b1)};
 }
 
 Vec3 TexelSamples::retried(const TexelSample& texel, Vec2 u) const {
   for (int i = 0; i < most_tries; ++i) {
-    const Vec2 weights = slopes_[texel.triangle].weights(texel, u);
+    const Vec2 weights = slopes_[texel.triangle].barycentric(texel, u);
     const float b0 = 1 - weights.x - weights.y;
     if (weights.x > 0 && weights.y > 0 && b0 > 0) return {b0, weights.x, weights.y};
     u = another(u);
@@ -93,22 +93,22 @@ Vec3 TexelSamples::retried(const TexelSample& texel, Vec2 u) const {
   return {1 - texel.b1 - texel.b2, texel.b1, texel.b2};
 }
 
-Place TexelSamples::place(const TexelSample& texel, const Vec2& u) const {
-  Place place;
-  place.weights = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
-  const Vec3& share = place.weights;
+GatherPoint TexelSamples::sample(std::size_t index, const Vec2& u) const {
+  const TexelSample& texel = texels_[index];
+  GatherPoint point;
+  point.triangle = texel.triangle;
+  point.barycentric = past_edge_ == PastEdge::mirror ? mirrored(texel, u) : retried(texel, u);
+  const Vec3& b = point.barycentric;
   const SurfaceTriangle& triangle = surface_.triangles[texel.triangle];
   const auto& corners = triangle.corners;
-  place.position =
-      corners[0].position * share.x + corners[1].position * share.y + corners[2].position * share.z;
-  place.face = triangle.normal;
-  const auto mixed = [&](Vec3 Frame::*axis) {
-    return corners[0].frame.*axis * share.x + corners[1].frame.*axis * share.y +
-           corners[2].frame.*axis * share.z;
+  point.position = corners[0].position * b.x + corners[1].position * b.y + corners[2].position * b.z;
+  point.face = triangle.normal;
+  const auto interpolated = [&](Vec3 Frame::*axis) {
+    return corners[0].frame.*axis * b.x + corners[1].frame.*axis * b.y + corners[2].frame.*axis * b.z;
   };
-  place.frame = {mixed(&Frame::tangent), mixed(&Frame::bitangent), mixed(&Frame::normal),
+  point.frame = {interpolated(&Frame::tangent), interpolated(&Frame::bitangent), interpolated(&Frame::normal),
                  corners[0].frame.sign};
-  return place;
+  return point;
 }
 
 }  // namespace rnmbake

@@ -14,23 +14,23 @@
 namespace rnmbake {
 namespace {
 
-/// What one camera ray brings.
+/// Result of one primary ray.
 struct Seen {
   Vec3 radiance{0, 0, 0}, albedo{0, 0, 0};
   float surface = 0;
 };
 
-/// Everything on the way that shows itself to cameras, to where a path stays.
+/// Follows a primary ray to the surface where its path stops, past what is not visible to cameras.
 Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Sampler& sampler) {
   const auto& objects = scene.diffuse_scene().survey.objects;
-  const auto is_shown = [&](std::uint32_t triangle) {
+  const auto is_visible = [&](std::uint32_t triangle) {
     return bool(objects[scene.triangles().object[triangle]].visible_to_camera);
   };
   Seen seen;
   Vec3 weight(1);
   while (true) {
-    const auto glow = [&](const Hit&, const Vec3& radiance) { seen.radiance += weight * radiance; };
-    const PathHit end = trace_through(scene, ray, sampler, glow, is_shown);
+    const auto on_emission = [&](const Hit&, const Vec3& radiance) { seen.radiance += weight * radiance; };
+    const PathHit end = trace_through(scene, ray, sampler, on_emission, is_visible);
     weight *= end.weight();
     if (!end.met) {
       seen.radiance += weight * scene.lights().world(ray.direction);
@@ -38,13 +38,14 @@ Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Samp
       return seen;
     }
     const Vertex vertex = vertex_at(scene, ray, end.hit);
-    if (is_shown(end.hit.triangle)) {
+    if (is_visible(end.hit.triangle)) {
       seen.radiance += weight * reflected(vertex, sampler);
       seen.albedo = weight * scene.materials().albedo(vertex.material, vertex.uv);
       seen.surface = 1;
       return seen;
     }
-    // A step along the ray as well: with a grazing ray the way through the face is too short to count.
+    // A step along the ray as well: at grazing angles the offset through the face advances the ray too
+    // little.
     const float step = std::max(vertex.ray_offset, 1e-6F * end.hit.distance);
     ray.origin = vertex.start_below() + ray.direction * step;
   }
@@ -75,9 +76,9 @@ class ViewTracer {
     float surfaces = 0;
     for (int s = 0; s < options_.samples; ++s) {
       Sampler sampler(seed, static_cast<std::uint32_t>(s));
-      const Vec2 place = sampler.next2();
+      const Vec2 in_pixel = sampler.next2();
       const Seen seen =
-          see(scene_, rays_.through(x + double(place.x), y + double(place.y)), reflected_, sampler);
+          see(scene_, rays_.through(x + double(in_pixel.x), y + double(in_pixel.y)), reflected_, sampler);
       radiance += seen.radiance;
       albedo += seen.albedo;
       surfaces += seen.surface;

@@ -1,5 +1,4 @@
-// trace/view.h - what a camera sees: rays through its pixels, and what somebody makes of the places they
-// meet.
+// trace/view.h - renders a camera's view: primary rays, and a caller's radiance at the surfaces they hit.
 #pragma once
 
 #include "base/math.h"
@@ -36,25 +35,25 @@ class CameraRays {
 
 struct ViewOptions {
   int width = 960, height = 540;
-  int samples = 16;  // camera rays for each pixel, at most 65536
+  int samples = 16;  // primary rays of each pixel, at most 65536
   std::uint64_t seed = 0;
   int threads = 0;  // 0: all cores
 };
 
-/// Of the light that a place sends back towards the camera: radiance, its emission left out.
+/// Radiance reflected at a vertex towards the camera, its emission left out.
 using ReflectedLight = std::function<Vec3(const Vertex& vertex, Sampler& sampler)>;
 
 /// Averages over each pixel's square (box filter).
 struct View {
-  FloatImage beauty;    // RGB, radiance: emitted, reflected, or the world's where nothing is met
-  FloatImage albedo;    // RGB, 0 where nothing is met
-  FloatImage coverage;  // one channel: share of the camera rays that met something
+  FloatImage beauty;    // RGB, radiance: emitted, reflected, or the world's where no surface is hit
+  FloatImage albedo;    // RGB, 0 where no surface is hit
+  FloatImage coverage;  // one channel: share of the primary rays that hit a surface
 };
 
-/// `reflected` is called from several threads. Objects that cameras do not see are looked through. The same
-/// for a seed at any number of threads; two calls with one seed have the same camera rays. `progress`
-/// receives the share done, one call at a time; `stop` is polled, and when it says true the view is
-/// unfinished.
+/// `reflected` is called from several threads. Rays pass objects that are not visible to cameras.
+/// Deterministic for a seed at any number of threads; two calls with one seed trace the same primary rays.
+/// `progress` receives the share done, one call at a time; `stop` is polled, and once it is true the view is
+/// left unfinished.
 [[nodiscard]] View trace_view(const TraceScene& scene, const Camera& camera, const ViewOptions& options,
                               const ReflectedLight& reflected,
                               const std::function<void(double)>& progress = {},

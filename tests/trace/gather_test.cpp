@@ -83,7 +83,7 @@ TEST(Gather, FurnaceWithoutSharing) {
 
 TEST(Gather, FurnaceByChanceAlone) {
   GatherOptions options = all_directions(1024);
-  options.light_sampling = false;
+  options.sample_lights = false;
   expect_unbiased(furnace(), 0, options, furnace_truth);
 }
 

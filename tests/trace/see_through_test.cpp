@@ -168,7 +168,7 @@ TEST(SeeThrough, FurnaceWithPartitionsWithoutSharing) {
 
 TEST(SeeThrough, FurnaceWithPartitionsByChanceAlone) {
   GatherOptions options = all_directions(512);
-  options.light_sampling = false;
+  options.sample_lights = false;
   expect_unbiased(errors(partitioned_furnace(), options, 24), 1e-3);
 }
 

@@ -28,14 +28,14 @@ Surface triangle_of(const Vec2& a, const Vec2& b, const Vec2& c) {
   return surface;
 }
 
-/// Where `count` samples of the only texel lie.
-std::vector<Vec3> places(const Surface& surface, Footprint footprint, PastEdge past_edge, int count) {
+/// Positions of `count` samples of the only texel.
+std::vector<Vec3> positions(const Surface& surface, Footprint footprint, PastEdge past_edge, int count) {
   const TexelSamples texel_samples(surface, side, side, footprint, past_edge);
   EXPECT_EQ(texel_samples.texels().size(), 1U);
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) {
     Sampler sampler(7, static_cast<std::uint32_t>(i));
-    result.push_back(texel_samples.place(texel_samples.texels().front(), sampler.next2()).position);
+    result.push_back(texel_samples.sample(0, sampler.next2()).position);
   }
   return result;
 }
@@ -54,9 +54,9 @@ TEST(TexelSamples, WithinTheTriangleASampleIsWhereTheFootprintSays) {
   for (const PastEdge past_edge : {PastEdge::mirror, PastEdge::retry}) {
     const Surface surface = triangle_of(low, right, top);
     const TexelSamples texel_samples(surface, side, side, Footprint::full, past_edge);
-    const Place place = texel_samples.place(texel_samples.texels().front(), Vec2(0.25F, 0.125F));
-    EXPECT_NEAR(place.position.x, 1.5 - 0.25, 1e-5);
-    EXPECT_NEAR(place.position.y, 1.5 - 0.375, 1e-5);
+    const GatherPoint point = texel_samples.sample(0, Vec2(0.25F, 0.125F));
+    EXPECT_NEAR(point.position.x, 1.5 - 0.25, 1e-5);
+    EXPECT_NEAR(point.position.y, 1.5 - 0.375, 1e-5);
   }
 }
 
@@ -65,15 +65,15 @@ TEST(TexelSamples, WithinTheTriangleASampleIsWhereTheFootprintSays) {
 TEST(TexelSamples, MirroringFoldsTheFirstWeightThenTheSecond) {
   const Surface surface = triangle_of(low, right, top);
   const TexelSamples texel_samples(surface, side, side, Footprint::half, PastEdge::mirror);
-  const Place place = texel_samples.place(texel_samples.texels().front(), Vec2(1, 1));
-  EXPECT_NEAR(place.position.x, 1 + 1.04 * 0.3942, 1e-4);
-  EXPECT_NEAR(place.position.y, 1 + 1.04 * 0.1635, 1e-4);
+  const GatherPoint point = texel_samples.sample(0, Vec2(1, 1));
+  EXPECT_NEAR(point.position.x, 1 + 1.04 * 0.3942, 1e-4);
+  EXPECT_NEAR(point.position.y, 1 + 1.04 * 0.1635, 1e-4);
 }
 
 TEST(TexelSamples, RetryingSpreadsSamplesEvenlyOverWhatLiesInside) {
   // Of the half texel, the corner beyond x + y = 3.04 is missing.
   const std::vector<Vec3> points =
-      places(triangle_of(low, right, top), Footprint::half, PastEdge::retry, 65536);
+      positions(triangle_of(low, right, top), Footprint::half, PastEdge::retry, 65536);
   for (const Vec3& p : points) EXPECT_LT(p.x + p.y, 3.0401F);
   double count = 0, x = 0, y = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -94,7 +94,7 @@ TEST(TexelSamples, RetryingSpreadsSamplesEvenlyOverWhatLiesInside) {
 TEST(TexelSamples, WhereTenTriesFailTheCentreIsTaken) {
   // About 1/25 of the texel: ten tries miss it with a chance of 0.96^10.
   const Vec2 a(1.4F, 1.4F), b(1.7F, 1.4F), c(1.4F, 1.6667F);
-  const std::vector<Vec3> points = places(triangle_of(a, b, c), Footprint::full, PastEdge::retry, 65536);
+  const std::vector<Vec3> points = positions(triangle_of(a, b, c), Footprint::full, PastEdge::retry, 65536);
   const auto centres = std::count_if(points.begin(), points.end(), [](const Vec3& p) {
     return std::abs(p.x - 1.5F) < 1e-5F && std::abs(p.y - 1.5F) < 1e-5F;
   });

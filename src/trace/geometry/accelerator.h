@@ -1,4 +1,4 @@
-// trace/geometry/accelerator.h - Embree's tree over a scene's triangles. Private to the trace room.
+// trace/geometry/accelerator.h - Embree's BVH over a scene's triangles. Private to the trace room.
 #pragma once
 
 #include "rays/embree_scene.h"
@@ -12,18 +12,18 @@
 
 namespace rnmbake {
 
-/// One mesh of the opaque triangles, and one of those that let light through where there are any.
+/// One geometry of the opaque triangles, and one of the see-through triangles where there are any.
 class Accelerator {
  public:
-  /// `filter` is asked about every hit on a see-through triangle, in both kinds of query. Throws
-  /// Error(environment) where Embree fails. The triangles must outlive it and keep their place.
+  /// `filter` is called for every hit on a see-through triangle, in both kinds of query. Throws
+  /// Error(environment) where Embree fails. The triangles must outlive it and stay where they are in memory.
   Accelerator(Triangles& triangles, const SurfaceMaterials& materials, RTCFilterFunctionN filter);
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
   [[nodiscard]] RTCScene scene() const { return embree_.scene(); }
   [[nodiscard]] bool see_through() const { return !numbers_[1].empty(); }
-  /// Index into Triangles of what a query has met.
+  /// Index into Triangles of a hit.
   [[nodiscard]] std::uint32_t triangle(std::uint32_t geometry, std::uint32_t primitive) const {
     return see_through() ? numbers_[geometry][primitive] : primitive;
   }

@@ -6,15 +6,15 @@
 namespace rnmbake {
 namespace {
 
-/// The two texels around a place on an axis of `count` texels, and the share of the second.
+/// The two texels that a bilinear lookup filters along an axis, and the share of the second.
 struct Taps {
   int first = 0, second = 0;
   float share = 0;
 };
 
-Taps taps(float place, int count) {
+Taps taps(float texel, int count) {
   const auto last = static_cast<float>(count - 1);
-  const float clamped = place > 0 ? std::min(place, last) : 0.0F;  // NaN: 0
+  const float clamped = texel > 0 ? std::min(texel, last) : 0.0F;  // NaN: 0
   const int first = static_cast<int>(clamped);
   return {first, std::min(first + 1, count - 1), clamped - static_cast<float>(first)};
 }

@@ -1,4 +1,4 @@
-// trace/geometry/surface_materials.h - albedo, emission and transmittance at a place on a triangle.
+// trace/geometry/surface_materials.h - albedo, emission and transmittance at a surface point.
 #pragma once
 
 #include "base/math.h"
@@ -8,7 +8,7 @@
 
 namespace rnmbake {
 
-/// Bilinear, clamped at the borders, v up: what Cycles' image texture gives with Linear and EXTEND.
+/// Bilinear lookup, clamped at the borders, v up: Cycles' image texture with Linear and EXTEND.
 [[nodiscard]] Vec3 lookup(const Texture& picture, const Vec2& uv);
 
 class SurfaceMaterials {
@@ -26,7 +26,7 @@ class SurfaceMaterials {
     if (it.transmittance_picture < 0) return it.transmittance;
     return unit(lookup(scene_->pictures[it.transmittance_picture], uv));
   }
-  /// Whether light goes through some of it.
+  /// Whether any of it transmits light.
   [[nodiscard]] bool see_through(std::uint32_t material) const {
     return scene_->materials[material].see_through();
   }

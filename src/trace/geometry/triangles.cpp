@@ -12,7 +12,7 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Appends one object's triangles. A mirrored object keeps its front: two corners change places.
+/// Appends the triangles of an object. Two corners are swapped where it is mirrored, so that its front stays.
 void add_object(const DiffuseScene& scene, std::size_t object_index, const Vec3d& origin, Triangles& out) {
   const SceneObject& object = scene.survey.objects[object_index];
   const Mesh& mesh = scene.survey.mesh_of(object);

@@ -13,15 +13,15 @@ namespace rnmbake {
 struct Triangles {
   std::vector<Vec3> position;           // [3 x triangles]
   std::vector<Vec3> normal;             // [3 x triangles]
-  std::vector<Vec2> uv;                 // [3 x triangles] of the look's pictures; (0,0) where it has none
-  std::vector<std::uint32_t> material;  // [triangles] -> DiffuseScene::looks
+  std::vector<Vec2> uv;                 // [3 x triangles] of the material's pictures; (0,0) where it has none
+  std::vector<std::uint32_t> material;  // [triangles] -> DiffuseScene::materials
   std::vector<std::uint32_t> object;    // [triangles] -> SceneSurvey::objects
   std::vector<std::uint32_t> source;    // [triangles]: number of the mesh's triangle
 
   [[nodiscard]] std::size_t size() const { return material.size(); }
 };
 
-/// The middle of all objects that block light, world space.
+/// Centre of the bounding box of all objects that block light, world space.
 [[nodiscard]] Vec3d middle_of(const DiffuseScene& scene);
 
 /// All objects that block light, in order, relative to `origin`. Triangles without area or with a corner that

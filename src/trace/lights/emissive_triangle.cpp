@@ -14,7 +14,7 @@ float brightness(const Vec3& c) {
   return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
 }
 
-/// Sums over rectangles of a picture's texels.
+/// Summed-area tables of a picture: brightness, and number of lit texels.
 class PictureSums {
  public:
   explicit PictureSums(const Texture& picture) : picture_(picture), width_(picture.width + 1) {
@@ -31,8 +31,7 @@ class PictureSums {
     }
   }
 
-  /// Mean brightness of the texels that reading anywhere in the rectangle may touch; > 0 where one of them
-  /// is.
+  /// Mean brightness of the texels that lookups in the rectangle filter; > 0 where one of them is.
   [[nodiscard]] float mean(const Vec2& low, const Vec2& high) const {
     const int x0 = first(low.x, picture_.width), x1 = last(high.x, picture_.width);
     const int y0 = first(1 - high.y, picture_.height), y1 = last(1 - low.y, picture_.height);
@@ -47,13 +46,13 @@ class PictureSums {
   }
 
  private:
-  static int first(float place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place * static_cast<float>(count) - 0.51F), 0.0F,
-                                       static_cast<float>(count - 1)));
+  static int first(float v, int count) {
+    return static_cast<int>(
+        std::clamp(std::floor(v * static_cast<float>(count) - 0.51F), 0.0F, static_cast<float>(count - 1)));
   }
-  static int last(float place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place * static_cast<float>(count) + 0.51F) + 1, 1.0F,
-                                       static_cast<float>(count)));
+  static int last(float v, int count) {
+    return static_cast<int>(
+        std::clamp(std::floor(v * static_cast<float>(count) + 0.51F) + 1, 1.0F, static_cast<float>(count)));
   }
 
   const Texture& picture_;
@@ -62,12 +61,12 @@ class PictureSums {
   std::vector<std::uint32_t> lit_;
 };
 
-class Finder {
+class BrightnessEstimator {
  public:
-  explicit Finder(const DiffuseScene& scene)
+  explicit BrightnessEstimator(const DiffuseScene& scene)
       : scene_(scene), materials_(scene), sums_(scene.pictures.size()) {}
 
-  [[nodiscard]] float brightness_of(std::uint32_t material, const Vec2* uv) {
+  [[nodiscard]] float of(std::uint32_t material, const Vec2* uv) {
     const int picture = scene_.materials[material].emission_picture;
     if (picture < 0) return brightness(scene_.materials[material].emission);
     if (!sums_[picture]) sums_[picture] = std::make_unique<PictureSums>(scene_.pictures[picture]);
@@ -81,7 +80,7 @@ class Finder {
   }
 
  private:
-  /// A mean of a few places on the triangle; its texels' rectangle covers neighbours, too.
+  /// Mean over a few points of the triangle: its bounding rectangle of texels covers neighbours, too.
   [[nodiscard]] float inside(std::uint32_t material, const Vec2* uv) const {
     constexpr int steps = 4;
     float sum = 0;
@@ -92,8 +91,8 @@ class Finder {
         sum += brightness(materials_.emission(material, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
       }
     }
-    constexpr int places = steps * (steps + 1) / 2;
-    return sum / places;
+    constexpr int points = steps * (steps + 1) / 2;
+    return sum / points;
   }
 
   const DiffuseScene& scene_;
@@ -103,19 +102,19 @@ class Finder {
 
 }  // namespace
 
-std::vector<EmissiveTriangle> glowing_triangles(const DiffuseScene& scene, const Triangles& triangles) {
-  Finder finder(scene);
+std::vector<EmissiveTriangle> find_emissive_triangles(const DiffuseScene& scene, const Triangles& triangles) {
+  BrightnessEstimator brightness(scene);
   const SurfaceMaterials materials(scene);
   std::vector<EmissiveTriangle> found;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (!materials.emits(triangles.material[t])) continue;
-    EmissiveTriangle glow;
-    glow.brightness = finder.brightness_of(triangles.material[t], &triangles.uv[3 * t]);
-    if (!(glow.brightness > 0)) continue;
+    EmissiveTriangle emitter;
+    emitter.brightness = brightness.of(triangles.material[t], &triangles.uv[3 * t]);
+    if (!(emitter.brightness > 0)) continue;
     const Vec3* p = &triangles.position[3 * t];
-    glow.shape = light_triangle(p[0], p[1], p[2]);
-    glow.triangle = static_cast<std::uint32_t>(t);
-    if (glow.shape.area > 0) found.push_back(glow);
+    emitter.shape = light_triangle(p[0], p[1], p[2]);
+    emitter.triangle = static_cast<std::uint32_t>(t);
+    if (emitter.shape.area > 0) found.push_back(emitter);
   }
   return found;
 }

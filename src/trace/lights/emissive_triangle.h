@@ -1,4 +1,4 @@
-// trace/lights/emissive_triangle.h - the triangles of a scene that glow, and how strongly.
+// trace/lights/emissive_triangle.h - the emissive triangles of a scene (mesh lights).
 #pragma once
 
 #include "base/math.h"
@@ -14,12 +14,12 @@ namespace rnmbake {
 struct EmissiveTriangle {
   LightTriangle shape;
   std::uint32_t triangle = 0;  // index into Triangles
-  float brightness = 0;        // of its emission, on average; > 0
+  float brightness = 0;        // mean emitted radiance, about; > 0
 };
 
-/// Every triangle that shines anywhere, be it by one texel of a picture. One whose area is lost in floats is
-/// left out: rays never meet it.
-[[nodiscard]] std::vector<EmissiveTriangle> glowing_triangles(const DiffuseScene& scene,
-                                                              const Triangles& triangles);
+/// All triangles that emit anywhere, be it by one texel of a picture. Those whose area is 0 in floats are
+/// left out: no ray hits them.
+[[nodiscard]] std::vector<EmissiveTriangle> find_emissive_triangles(const DiffuseScene& scene,
+                                                                    const Triangles& triangles);
 
 }  // namespace rnmbake

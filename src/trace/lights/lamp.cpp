@@ -10,17 +10,17 @@
 namespace rnmbake {
 namespace {
 
-/// Towards `place`; distance 0 where the point lies on it.
-LightSample wo(const Vec3& point, const Vec3& place) {
+/// Direction and distance from `point` to `target`; distance 0 where they coincide.
+LightSample towards(const Vec3& point, const Vec3& target) {
   LightSample sample;
-  const Vec3 way = place - point;
-  sample.distance = way.length();
-  if (sample.distance > 0) sample.direction = way / sample.distance;
+  const Vec3 to_target = target - point;
+  sample.distance = to_target.length();
+  if (sample.distance > 0) sample.direction = to_target / sample.distance;
   return sample;
 }
 
 LightSample sample_point(const Lamp& lamp, const Vec3& point) {
-  LightSample sample = wo(point, lamp.position);
+  LightSample sample = towards(point, lamp.position);
   if (sample.distance == 0) return {};
   const float share = spot_share(lamp.spot, -sample.direction);
   sample.radiance = lamp.radiance * (share / (sample.distance * sample.distance));
@@ -28,9 +28,9 @@ LightSample sample_point(const Lamp& lamp, const Vec3& point) {
   return sample;
 }
 
-/// Seen from `point` the disk is a cone of directions, with the same radiance from each.
+/// Samples the cone of directions that the disk is from `point`, with the same radiance from each.
 LightSample sample_disk(const Lamp& lamp, const Vec3& point, const Vec2& u) {
-  const LightSample centre = wo(point, lamp.position);
+  const LightSample centre = towards(point, lamp.position);
   if (centre.distance == 0) return {};
   const float ratio = lamp.radius / centre.distance;
   const float slant = std::sqrt(1 + ratio * ratio);            // 1 / cosine at the rim
@@ -44,17 +44,17 @@ LightSample sample_disk(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   return sample;
 }
 
-/// Distance to where a ray from `way` before the centre leaves (`inside`) or meets a sphere.
-float sphere_distance(const Vec3& way, const Vec3& direction, float radius, bool inside) {
-  const float along = way.dot(direction);
-  const float aside2 = (way - direction * along).length2();
+/// Distance along a ray to where it leaves (`inside`) or enters a sphere.
+float sphere_distance(const Vec3& to_centre, const Vec3& direction, float radius, bool inside) {
+  const float along = to_centre.dot(direction);
+  const float aside2 = (to_centre - direction * along).length2();
   const float half = std::sqrt(std::max(radius * radius - aside2, 0.0F));
   return std::max(inside ? along + half : along - half, 0.0F);
 }
 
 LightSample sample_sphere(const Lamp& lamp, const Vec3& point, const Vec2& u) {
-  const LightSample centre = wo(point, lamp.position);
-  const Vec3 way = lamp.position - point;
+  const LightSample centre = towards(point, lamp.position);
+  const Vec3 to_centre = lamp.position - point;
   const bool inside = centre.distance <= lamp.radius;
   LightSample sample;
   float height = 2;
@@ -65,7 +65,7 @@ LightSample sample_sphere(const Lamp& lamp, const Vec3& point, const Vec2& u) {
     height = sine * sine / (1 + std::sqrt(1 - sine * sine));
     sample.direction = OrthonormalBasis(centre.direction).to_world(uniform_cone(height, u));
   }
-  sample.distance = sphere_distance(way, sample.direction, lamp.radius, inside);
+  sample.distance = sphere_distance(to_centre, sample.direction, lamp.radius, inside);
   sample.radiance = lamp.radiance * (inside ? 1.0F : spot_share(lamp.spot, -sample.direction));
   sample.pdf = sample.radiance == Vec3(0, 0, 0) ? 0.0F : uniform_cone_pdf(height);
   return sample;
@@ -82,9 +82,9 @@ LightSample sample_sun(const Lamp& lamp, const Vec2& u) {
   }
   const OrthonormalBasis frame(-lamp.axis);
   if (lamp.flat_sun) {
-    const Vec2 place = uniform_disk(u) * lamp.radius;
-    const float slant = std::sqrt(1 + place.length2());
-    sample.direction = frame.to_world(Vec3(place.x, place.y, 1) / slant);
+    const Vec2 on_disk = uniform_disk(u) * lamp.radius;
+    const float slant = std::sqrt(1 + on_disk.length2());
+    sample.direction = frame.to_world(Vec3(on_disk.x, on_disk.y, 1) / slant);
     sample.pdf = slant * slant * slant / (pi_f * lamp.radius * lamp.radius);
     sample.radiance = lamp.radiance * (slant * slant * slant);
     return sample;
@@ -96,7 +96,7 @@ LightSample sample_sun(const Lamp& lamp, const Vec2& u) {
   return sample;
 }
 
-/// The part of an area's sides [-1, 1] that its spread lets light this point.
+/// The part of an area's sides [-1, 1] whose spread reaches a point.
 struct Reach {
   float u0 = -1, u1 = 1, v0 = -1, v1 = 1;
   [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
@@ -105,10 +105,10 @@ struct Reach {
 Reach reach_of(const Lamp& lamp, const Vec3& point, float height) {
   Reach reach;
   if (lamp.spread_tangent == 0) return reach;
-  const Vec3 way = point - lamp.position;
+  const Vec3 from_centre = point - lamp.position;
   const float radius = height * lamp.spread_tangent * 1.0001F;
   const auto clip = [&](const Vec3& half, float& from, float& to) {
-    const float length2 = half.length2(), centre = way.dot(half) / length2,
+    const float length2 = half.length2(), centre = from_centre.dot(half) / length2,
                 range = radius / std::sqrt(length2);
     from = std::max(from, centre - range);
     to = std::min(to, centre + range);
@@ -119,14 +119,14 @@ Reach reach_of(const Lamp& lamp, const Vec3& point, float height) {
   return reach;
 }
 
-/// From a place on an area that was chosen with a density per area.
-LightSample by_area(const Lamp& lamp, const Vec3& point, const Vec3& place, float density) {
-  LightSample sample = wo(point, place);
+/// Turns a point on an area, sampled with `area_pdf` per area, into a sample per solid angle.
+LightSample by_area(const Lamp& lamp, const Vec3& point, const Vec3& on_lamp, float area_pdf) {
+  LightSample sample = towards(point, on_lamp);
   const float cosine = -sample.direction.dot(lamp.axis);
   if (sample.distance == 0 || cosine <= 0) return {};
   const float share = spread_share(lamp, cosine);
   sample.radiance = lamp.radiance * share;
-  sample.pdf = share > 0 ? density * sample.distance * sample.distance / cosine : 0.0F;
+  sample.pdf = share > 0 ? area_pdf * sample.distance * sample.distance / cosine : 0.0F;
   return sample;
 }
 
@@ -140,10 +140,10 @@ LightSample sample_rectangle(const Lamp& lamp, const Vec3& point, const Vec2& u)
       lamp.position + lamp.u * ((reach.u1 + reach.u0) / 2) + lamp.v * ((reach.v1 + reach.v0) / 2);
   const SphericalRectangle seen(point, centre, half_u, half_v);
   if (!seen.usable()) {
-    const Vec3 place = centre + half_u * (2 * u.x - 1) + half_v * (2 * u.y - 1);
-    return by_area(lamp, point, place, 1 / (4 * half_u.cross(half_v).length()));
+    const Vec3 on_lamp = centre + half_u * (2 * u.x - 1) + half_v * (2 * u.y - 1);
+    return by_area(lamp, point, on_lamp, 1 / (4 * half_u.cross(half_v).length()));
   }
-  LightSample sample = wo(point, seen.sample(u));
+  LightSample sample = towards(point, seen.sample(u));
   const float cosine = -sample.direction.dot(lamp.axis);
   const float share = cosine > 0 ? spread_share(lamp, cosine) : 0.0F;
   sample.radiance = lamp.radiance * share;
@@ -151,21 +151,22 @@ LightSample sample_rectangle(const Lamp& lamp, const Vec3& point, const Vec2& u)
   return sample;
 }
 
-/// Where the spread reaches a smaller rectangle than the ellipse, that rectangle, without what sticks out.
+/// Samples the ellipse, or the rectangle that the spread reaches where that is smaller; of it, points off the
+/// ellipse carry nothing.
 LightSample sample_ellipse(const Lamp& lamp, const Vec3& point, const Vec2& u) {
   const float height = (point - lamp.position).dot(lamp.axis);
   if (height <= 0) return {};
   const Reach reach = reach_of(lamp, point, height);
   if (reach.empty()) return {};
   const float share = (reach.u1 - reach.u0) * (reach.v1 - reach.v0);
-  Vec2 place = uniform_disk(u);
+  Vec2 on_disk = uniform_disk(u);
   float area = pi_f;
   if (share < area) {
     area = share;
-    place = Vec2(reach.u0 + u.x * (reach.u1 - reach.u0), reach.v0 + u.y * (reach.v1 - reach.v0));
-    if (place.length2() > 1) return {};
+    on_disk = Vec2(reach.u0 + u.x * (reach.u1 - reach.u0), reach.v0 + u.y * (reach.v1 - reach.v0));
+    if (on_disk.length2() > 1) return {};
   }
-  return by_area(lamp, point, lamp.position + lamp.u * place.x + lamp.v * place.y,
+  return by_area(lamp, point, lamp.position + lamp.u * on_disk.x + lamp.v * on_disk.y,
                  1 / (area * lamp.u.cross(lamp.v).length()));
 }
 

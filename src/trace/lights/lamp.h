@@ -1,4 +1,4 @@
-// trace/lights/lamp.h - one lamp in plain numbers, and how to sample it from a point. Lamps block no rays.
+// trace/lights/lamp.h - a lamp in plain numbers, and sampling it from a point. Lamps block no rays.
 #pragma once
 
 #include "base/math.h"
@@ -6,7 +6,7 @@
 
 namespace rnmbake {
 
-/// The cone of a spot: what it emits in a direction is multiplied by spot_share().
+/// The cone of a spot, whose emission is multiplied by spot_share().
 struct SpotCone {
   bool used = false;
   // Rows that take a direction into the lamp's own frame, z along its axis.
@@ -18,11 +18,11 @@ struct SpotCone {
 [[nodiscard]] float spot_share(const SpotCone& cone, const Vec3& emitted);
 
 struct Lamp {
-  /// point: no size. disk: turns its face to every point that it lights; what Blender calls soft fall-off.
+  /// point: no size. disk: faces every point that it lights, which Blender calls soft fall-off.
   enum class Kind { point, disk, sphere, sun, rectangle, ellipse };
   Kind kind = Kind::point;
   Vec3 position{0, 0, 0};
-  Vec3 axis{0, 0, -1};     // unit; where a sun, a spot or an area shines
+  Vec3 axis{0, 0, -1};     // unit; direction that a sun, a spot or an area emits along
   Vec3 radiance{0, 0, 0};  // point: radiant intensity; sun without size: irradiance at normal incidence
   int max_bounces = 1024;  // LightSample::max_bounces
   float radius = 0;        // disk, sphere; of a sun: tangent of half its angle
@@ -35,10 +35,10 @@ struct Lamp {
   [[nodiscard]] float area() const;  // of rectangle and ellipse
 };
 
-/// What is emitted at an angle to the area's axis, as a share of `radiance`; `cosine` in (0, 1].
+/// Share of `radiance` that an area emits at an angle to its axis; `cosine` in (0, 1].
 [[nodiscard]] float spread_share(const Lamp& lamp, float cosine);
 
-/// Fills a sample whose pdf lacks the choice of the lamp; pdf 0 where nothing arrives.
+/// Samples the lamp; the pdf lacks the choice of the lamp, and is 0 where no light arrives.
 [[nodiscard]] LightSample sample_lamp(const Lamp& lamp, const Vec3& point, const Vec2& u);
 
 }  // namespace rnmbake

@@ -25,8 +25,8 @@ void bound_area(const Lamp& lamp, LightBounds& bounds) {
   if (lamp.spread_tangent > 0) bounds.emission = 1 / std::sqrt(1 + lamp.spread_tangent * lamp.spread_tangent);
 }
 
-/// The cosine that the lamp's cone has in the world: scaled lamps have elliptic ones. -1 where it cannot be
-/// told.
+/// Cosine of the widest half angle of the cone in world space, where scaled lamps have elliptic cones. -1:
+/// not bounded.
 float widest_cosine(const SpotCone& cone) {
   if (cone.cosine <= 0) return -1;
   const float tangent = std::sqrt(1 - cone.cosine * cone.cosine) / cone.cosine;
@@ -56,18 +56,18 @@ LightBounds lamp_bounds(const Lamp& lamp) {
   return bounds;
 }
 
-LightBounds emissive_triangle_bounds(const EmissiveTriangle& glow) {
+LightBounds emissive_triangle_bounds(const EmissiveTriangle& emitter) {
   LightBounds bounds;
-  const Vec3& a = glow.shape.corner;
-  const Vec3 b = a + glow.shape.edge1, c = a + glow.shape.edge2;
+  const Vec3& a = emitter.shape.corner;
+  const Vec3 b = a + emitter.shape.edge1, c = a + emitter.shape.edge2;
   for (int k = 0; k < 3; ++k) {
     bounds.low[k] = std::min({a[k], b[k], c[k]});
     bounds.high[k] = std::max({a[k], b[k], c[k]});
   }
-  bounds.axis = glow.shape.normal;
+  bounds.axis = emitter.shape.normal;
   bounds.normals = 1;
   bounds.two_sided = true;
-  bounds.power = glow.brightness * glow.shape.area;
+  bounds.power = emitter.brightness * emitter.shape.area;
   return bounds;
 }
 

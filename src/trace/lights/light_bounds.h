@@ -1,5 +1,4 @@
-// trace/lights/light_bounds.h - where lamps and glowing triangles are and which way they shine, for the light
-// tree.
+// trace/lights/light_bounds.h - bounds of lamps and emissive triangles for the light tree.
 #pragma once
 
 #include "trace/lights/emissive_triangle.h"
@@ -10,6 +9,6 @@ namespace rnmbake {
 
 /// Of any lamp but a sun.
 [[nodiscard]] LightBounds lamp_bounds(const Lamp& lamp);
-[[nodiscard]] LightBounds emissive_triangle_bounds(const EmissiveTriangle& glow);
+[[nodiscard]] LightBounds emissive_triangle_bounds(const EmissiveTriangle& emitter);
 
 }  // namespace rnmbake

@@ -1,21 +1,23 @@
-// trace/lights/light_sample.h - light that would arrive at a point.
+// trace/lights/light_sample.h - one sample of the lights around a point.
 #pragma once
 
 #include "base/math.h"
 
 namespace rnmbake {
 
-/// Light that would arrive at a point if nothing stood in its way.
+/// Light that arrives at a point from one direction where nothing occludes it.
 struct LightSample {
   Vec3 direction{0, 0, 1};  // unit, towards the light
   float distance = 0;       // to it; infinity for suns and the world
-  /// Arriving; for a delta light radiance x solid angle (its irradiance at normal incidence).
+  /// Incident radiance; of a delta light radiance x solid angle (its irradiance at normal incidence).
   Vec3 radiance{0, 0, 0};
-  /// Per solid angle, choice of the light included; for a delta light: of its choice. 0: nothing arrives.
+  /// Per solid angle, the choice of the light included; of a delta light the probability of its choice. 0: no
+  /// light arrives.
   float pdf = 0;
-  /// A ray in this direction could find it too: weigh the two ways against each other.
-  bool sample_bsdf = false;
-  /// It lights paths that bounced off no more surfaces.
+  /// Whether a ray sampled by the BSDF can hit it too, so that MIS must weigh the two. Lamps block no rays:
+  /// false.
+  bool bsdf_can_hit = false;
+  /// It lights only paths with at most so many bounces.
   int max_bounces = 1024;
 };
 

@@ -6,10 +6,11 @@
 namespace rnmbake {
 namespace {
 
-constexpr float slack = 1e-3F;         // cosines may be off by rounding: rather too much than nothing
-constexpr float horizon_share = 0.3F;  // of a light at the horizon: normals that tilt see light there well
+constexpr float slack = 1e-3F;  // rounding of cosines must not make a bound too low
+constexpr float horizon_share =
+    0.3F;  // of the weight at the horizon, where tilted basis directions receive much
 
-/// Both values exist already: no branch.
+/// Selects without a branch.
 inline float pick(bool first, float a, float b) {
   return first ? a : b;
 }
@@ -27,18 +28,18 @@ inline float sine_of(float cosine) {
 
 }  // namespace
 
-/// Returns the sum. For each lane an upper bound over its sphere and its cone: power x cosine at the light x
-/// softened cosine at the surface / distance^2. Free of branches, so that the compiler takes several lanes at
-/// a time.
+/// Returns the sum of the lanes' weights. A weight is an upper bound over the lane's sphere and cone: power x
+/// cosine at the light x softened cosine at the surface / distance^2. Free of branches, so that compilers
+/// vectorise it.
 float LightTree::weigh(const Node& node, const Vec3& point, const Vec3& normal, Weights& weights) {
-  Weights found;  // nothing else can point to it
+  Weights found;  // local, so that nothing aliases it
   const float horizon = normal == Vec3(0, 0, 0) ? 1.0F : horizon_share;
   for (std::uint32_t i = 0; i < lanes; ++i) {
     const float wx = point.x - node.x[i], wy = point.y - node.y[i], wz = point.z - node.z[i];
     const float distance2 = wx * wx + wy * wy + wz * wz, radius2 = node.radius2[i];
     const bool inside = distance2 <= radius2;
     const float scale = 1 / std::sqrt(pick(distance2 > 1e-30F, distance2, 1e-30F));
-    // The directions from the point to the sphere lie in this cone.
+    // Half angle of the cone of directions to the sphere.
     const float sin_b2 = pick(inside, 1.0F, radius2 * scale * scale), rest_b = 1 - sin_b2;
     const float sin_b = std::sqrt(sin_b2), cos_outside = std::sqrt(pick(rest_b > 0, rest_b, 0.0F));
     const float cos_b = pick(inside, -1.0F, cos_outside);
@@ -101,11 +102,11 @@ LightTree::Choice LightTree::choose(const Vec3& point, const Vec3& normal, float
 float LightTree::probability(const Vec3& point, const Vec3& normal, std::uint32_t light) const {
   Weights weights;
   float probability = 1;
-  for (Place place = places_[light];; place = parents_[place.node]) {
-    const float sum = weigh(nodes_[place.node], point, normal, weights);
-    if (!(weights[place.lane] > 0)) return 0;
-    probability *= weights[place.lane] / sum;
-    if (place.node == 0) return probability;
+  for (Slot slot = slots_[light];; slot = parents_[slot.node]) {
+    const float sum = weigh(nodes_[slot.node], point, normal, weights);
+    if (!(weights[slot.lane] > 0)) return 0;
+    probability *= weights[slot.lane] / sum;
+    if (slot.node == 0) return probability;
   }
 }
 

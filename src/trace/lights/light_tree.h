@@ -1,5 +1,6 @@
-// trace/lights/light_tree.h - chooses one of many lights by what each may send to a point (Conty Estevez &
-// Kulla 2018).
+// trace/lights/light_tree.h - chooses one of many lights by a bound of its irradiance at a point.
+//
+// Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018).
 #pragma once
 
 #include "base/math.h"
@@ -10,12 +11,12 @@
 
 namespace rnmbake {
 
-/// Where a light, or a group of them, is, which way it shines and how strongly.
+/// Bounds of a light or a group of lights: box, cone of normals, emission.
 struct LightBounds {
   Vec3 low{0, 0, 0}, high{0, 0, 0};
-  Vec3 axis{0, 0, 1};      // unit; all normals lie within `normals` of it,
-  float normals = -1;      // as a cosine,
-  float emission = 0;      // and light leaves within this of a normal, as a cosine
+  Vec3 axis{0, 0, 1};      // of the cone of normals, unit
+  float normals = -1;      // cosine of its half angle
+  float emission = 0;      // cosine of the largest angle between a normal and emitted light
   float power = 0;         // largest radiant intensity; > 0
   bool two_sided = false;  // emits along -axis, too
 };
@@ -27,23 +28,22 @@ class LightTree {
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
 
-  /// About the irradiance that all lights give together; 0 where nothing can arrive. `normal` as in Lights.
+  /// Estimate of the irradiance of all lights together; 0 where no light arrives. `normal` as in Lights.
   [[nodiscard]] float importance(const Vec3& point, const Vec3& normal) const;
 
   struct Choice {
     std::uint32_t light = 0;  // index into what the tree was made of
-    float probability = 0;    // 0: no light reaches the point
+    float probability = 0;    // 0: no light arrives
   };
-  /// `u` in [0,1) decides, and comes back as an even number in [0,1) that may be used again.
+  /// Consumes `u` in [0,1) and replaces it by a number uniform in [0,1) that may be used again.
   [[nodiscard]] Choice choose(const Vec3& point, const Vec3& normal, float& u) const;
-  /// With which choose() finds that light.
+  /// Of choose() returning that light.
   [[nodiscard]] float probability(const Vec3& point, const Vec3& normal, std::uint32_t light) const;
 
   static constexpr std::uint32_t lanes = 8;
 
  private:
-  /// Up to eight lights or groups side by side, so that they are weighed together. A lane without power is
-  /// empty.
+  /// Up to eight lights or groups side by side, for SIMD. A lane without power is empty.
   struct alignas(32) Node {
     std::array<float, lanes> x{}, y{}, z{}, radius2{};                  // the sphere around it
     std::array<float, lanes> axis_x{}, axis_y{}, axis_z{};              // of its cone of normals,
@@ -51,7 +51,7 @@ class LightTree {
     std::array<float, lanes> power{}, two_sided{};                      // 1 or 0
     std::array<std::uint32_t, lanes> child{};                           // a node; with `light_bit`, a light
   };
-  struct Place {
+  struct Slot {
     std::uint32_t node = 0, lane = 0;
   };
   using Weights = std::array<float, lanes>;
@@ -60,9 +60,9 @@ class LightTree {
 
   static float weigh(const Node& node, const Vec3& point, const Vec3& normal, Weights& weights);
 
-  std::vector<Node> nodes_;     // the root first
-  std::vector<Place> parents_;  // [nodes_]; of the root: itself
-  std::vector<Place> places_;   // [lights]
+  std::vector<Node> nodes_;    // the root first
+  std::vector<Slot> parents_;  // [nodes_]; of the root: itself
+  std::vector<Slot> slots_;    // [lights]
 };
 
 }  // namespace rnmbake

@@ -1,4 +1,4 @@
-// Splits lights where the sum of power x area x solid angle of the two halves is least, by bins.
+// Builds the light tree: splits groups by the surface area orientation heuristic over bins.
 #include "trace/lights/light_tree.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace rnmbake {
 namespace {
 
 constexpr int bins = 12;
-constexpr int deepest_guided = 40;              // below, halves of the same count
-constexpr std::uint32_t most_with_cones = 256;  // more shine everywhere, and joining cones is slow
+constexpr int deepest_guided = 40;              // below, the median
+constexpr std::uint32_t most_with_cones = 256;  // larger groups emit everywhere, and joining cones is slow
 
 /// The cone of normals around two cones.
 void join_cones(LightBounds& a, const LightBounds& b) {
@@ -20,7 +20,7 @@ void join_cones(LightBounds& a, const LightBounds& b) {
     a.normals = -1;
     return;
   }
-  // A two-sided light may as well be held the other way round.
+  // The axis of a two-sided light has no sign.
   Vec3 other = b.axis;
   if (b.two_sided && a.axis.dot(other) < 0) other = -other;
   const float wide_a = std::acos(std::clamp(a.normals, -1.0F, 1.0F));
@@ -55,7 +55,7 @@ void join(LightBounds& a, const LightBounds& b, bool with_cones) {
   a.power += b.power;
 }
 
-/// Solid angle that a group lights, weighted by the cosine past its normals.
+/// Solid angle that a group emits into, weighted by the cosine past its normals.
 double lit_angle(const LightBounds& bounds) {
   const double normals = std::acos(std::clamp(double(bounds.normals), -1.0, 1.0));
   const double emission = std::acos(std::clamp(double(bounds.emission), -1.0, 1.0));
@@ -83,7 +83,7 @@ class LightTreeBuilder {
     for (const LightBounds& light : lights)
       lights_.push_back({light, static_cast<std::uint32_t>(lights_.size())});
     groups_.reserve(2 * lights.size());
-    tree_.places_.resize(lights.size());
+    tree_.slots_.resize(lights.size());
     widen(halve(0, static_cast<std::uint32_t>(lights.size()), 0), {});
   }
 
@@ -156,8 +156,8 @@ class LightTreeBuilder {
     return first + (last - first) / 2;
   }
 
-  static int bin_of(float place, float low, float high) {
-    return std::clamp(static_cast<int>(bins * ((place - low) / (high - low))), 0, bins - 1);
+  static int bin_of(float value, float low, float high) {
+    return std::clamp(static_cast<int>(bins * ((value - low) / (high - low))), 0, bins - 1);
   }
 
   void consider(std::uint32_t first, std::uint32_t last, const Vec3& low, const Vec3& high, int axis,
@@ -184,7 +184,7 @@ class LightTreeBuilder {
   }
 
   /// Makes a node of the groups below `group`: of the widest ones, opened until the lanes are full.
-  std::uint32_t widen(std::uint32_t group, LightTree::Place parent) {
+  std::uint32_t widen(std::uint32_t group, LightTree::Slot parent) {
     std::vector<std::uint32_t> open{group};
     while (open.size() < LightTree::lanes) {
       const auto widest = std::max_element(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -201,7 +201,7 @@ class LightTreeBuilder {
     for (std::uint32_t lane = 0; lane < open.size(); ++lane) {
       fill(tree_.nodes_[at], lane, groups_[open[lane]].bounds);
       const Group& below = groups_[open[lane]];
-      if (below.second == single) tree_.places_[below.first] = {at, lane};
+      if (below.second == single) tree_.slots_[below.first] = {at, lane};
       const std::uint32_t child =
           below.second == single ? below.first | LightTree::light_bit : widen(open[lane], {at, lane});
       tree_.nodes_[at].child[lane] = child;

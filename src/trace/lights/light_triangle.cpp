@@ -27,32 +27,32 @@ LightTriangle light_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return t;
 }
 
-LightTriangle::Place LightTriangle::sample(const Vec3& point, const Vec2& u) const {
-  Place place;
+LightTriangle::Sample LightTriangle::sample(const Vec3& point, const Vec2& u) const {
+  Sample sample;
   const SphericalTriangle seen = seen_from(*this, point);
   if (seen.usable()) {
     const Vec3 direction = seen.sample(u);
     const Vec3 to_corner = corner - point;
     const float facing = direction.dot(normal);
-    if (facing == 0) return place;
+    if (facing == 0) return sample;
     // Barycentric coordinates of where the direction meets the plane.
     const Vec3 on = direction * (to_corner.dot(normal) / facing) - to_corner;
     const float scale = 1 / (2 * area);
-    place.b1 = std::clamp(on.cross(edge2).dot(normal) * scale, 0.0F, 1.0F);
-    place.b2 = std::clamp(edge1.cross(on).dot(normal) * scale, 0.0F, 1.0F - place.b1);
+    sample.b1 = std::clamp(on.cross(edge2).dot(normal) * scale, 0.0F, 1.0F);
+    sample.b2 = std::clamp(edge1.cross(on).dot(normal) * scale, 0.0F, 1.0F - sample.b1);
   } else {
     const Vec2 b = uniform_triangle(u);
-    place.b1 = b.x;
-    place.b2 = b.y;
+    sample.b1 = b.x;
+    sample.b2 = b.y;
   }
-  const Vec3 way = corner + edge1 * place.b1 + edge2 * place.b2 - point;
-  place.distance = way.length();
-  if (!(place.distance > 0)) return place;
-  place.direction = way / place.distance;
-  const float cosine = std::abs(place.direction.dot(normal));
-  if (cosine == 0) return place;
-  place.pdf = seen.usable() ? seen.pdf() : place.distance * place.distance / (cosine * area);
-  return place;
+  const Vec3 to_sample = corner + edge1 * sample.b1 + edge2 * sample.b2 - point;
+  sample.distance = to_sample.length();
+  if (!(sample.distance > 0)) return sample;
+  sample.direction = to_sample / sample.distance;
+  const float cosine = std::abs(sample.direction.dot(normal));
+  if (cosine == 0) return sample;
+  sample.pdf = seen.usable() ? seen.pdf() : sample.distance * sample.distance / (cosine * area);
+  return sample;
 }
 
 float LightTriangle::pdf(const Vec3& point, const Vec3& direction, float distance) const {

@@ -1,5 +1,5 @@
-// trace/lights/light_triangle.h - a glowing triangle, sampled by area where it looks small and by solid angle
-// where it looks large (Arvo 1995).
+// trace/lights/light_triangle.h - an emissive triangle, sampled by area where its solid angle is small and by
+// solid angle where it is large.
 #pragma once
 
 #include "base/math.h"
@@ -11,16 +11,15 @@ struct LightTriangle {
   Vec3 normal{0, 0, 1};                                  // unit
   float area = 0;
 
-  /// A place as barycentric weights of corners 1 and 2, and the density per solid angle that it was chosen
-  /// with: 0 where the point lies in the triangle's plane.
-  struct Place {
-    float b1 = 0, b2 = 0;
+  /// A point on the triangle; the pdf is per solid angle, 0 from within the triangle's plane.
+  struct Sample {
+    float b1 = 0, b2 = 0;  // barycentric coordinates of corners 1 and 2
     Vec3 direction{0, 0, 1};
     float distance = 0;
     float pdf = 0;
   };
-  [[nodiscard]] Place sample(const Vec3& point, const Vec2& u) const;
-  /// The density of a place on it that a ray met.
+  [[nodiscard]] Sample sample(const Vec3& point, const Vec2& u) const;
+  /// Of sampling the point that a ray from `point` hit.
   [[nodiscard]] float pdf(const Vec3& point, const Vec3& direction, float distance) const;
 };
 

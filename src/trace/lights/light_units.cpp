@@ -32,7 +32,7 @@ Vec3 colour(const LightInfo& light, double factor) {
   return Vec3(Vec3d(c[0], c[1], c[2]) * (light.energy * factor));
 }
 
-/// Since 4.5 the energy may be counted for each unit of a lamp's area.
+/// Since 4.5 the energy may be per unit of a lamp's area.
 double unless_normalized(const LightInfo& light, double area) {
   return size_or(light, "normalize", 1) != 0 ? 1.0 : area;
 }
@@ -43,8 +43,8 @@ class Reader {
 
   [[nodiscard]] Lamp read(const LightInfo& light) const {
     Lamp lamp;
-    const auto* place = light.to_world[3];
-    lamp.position = Vec3(Vec3d(place[0], place[1], place[2]) - origin_);
+    const auto* translation = light.to_world[3];
+    lamp.position = Vec3(Vec3d(translation[0], translation[1], translation[2]) - origin_);
     lamp.axis = -column(light, 2).normalized();
     lamp.max_bounces = light.max_bounces;
     if (light.type == "SUN")

@@ -16,15 +16,15 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::uint32_t not_glowing = ~std::uint32_t(0);
-constexpr float even_share = 0.2F;     // of the choice is even: what is dim may be all that is seen
+constexpr std::uint32_t not_emissive = ~std::uint32_t(0);
+constexpr float even_share = 0.2F;     // of the choice is uniform: a dim group may be the only one visible
 constexpr float horizon_share = 0.3F;  // as in the light tree
 
 float brightness(const Vec3& c) {
   return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
 }
 
-/// A sun's irradiance, softened towards the horizon; 0 where all of it is below.
+/// Irradiance of a sun, softened towards the horizon; 0 where all of it is below.
 float sun_importance(const Lamp& sun, const Vec3& normal) {
   const float slant2 = 1 + sun.radius * sun.radius;
   const float irradiance =
@@ -37,20 +37,20 @@ float sun_importance(const Lamp& sun, const Vec3& normal) {
 
 }  // namespace
 
-/// What is chosen from: the tree, the world, and each sun.
+/// The groups that a sample chooses from: the tree, the world, the suns.
 struct Lights::Impl {
   Impl(const DiffuseScene& diffuse_scene, const Triangles& all, const std::string& blender_version,
        const Vec3d& origin)
       : triangles(all),
         materials(diffuse_scene),
         world(diffuse_scene),
-        emissive_triangles(glowing_triangles(diffuse_scene, all)) {
+        emissive_triangles(find_emissive_triangles(diffuse_scene, all)) {
     for (Lamp& lamp : read_lamps(diffuse_scene.survey, blender_version, origin)) {
       (lamp.kind == Lamp::Kind::sun ? suns : lamps).push_back(lamp);
     }
     std::vector<LightBounds> bounds;
     for (const Lamp& lamp : lamps) bounds.push_back(lamp_bounds(lamp));
-    emissive_triangle_of.assign(emissive_triangles.empty() ? 0 : all.size(), not_glowing);
+    emissive_triangle_of.assign(emissive_triangles.empty() ? 0 : all.size(), not_emissive);
     for (std::size_t i = 0; i < emissive_triangles.size(); ++i) {
       bounds.push_back(emissive_triangle_bounds(emissive_triangles[i]));
       emissive_triangle_of[emissive_triangles[i].triangle] = static_cast<std::uint32_t>(i);
@@ -58,7 +58,7 @@ struct Lights::Impl {
     tree = LightTree(bounds);
   }
 
-  /// Importance of everything, and how many of the groups have any.
+  /// Importance of each group, and the number of groups that have any.
   struct Weights {
     float tree = 0, world = 0, suns = 0, sum = 0;
     int groups = 0;
@@ -69,7 +69,7 @@ struct Lights::Impl {
 
   [[nodiscard]] Weights weigh(const Vec3& point, const Vec3& normal) const {
     Weights weights;
-    if (only_one()) {  // no need to know how much
+    if (only_one()) {  // whatever its importance
       weights.tree = tree.empty() ? 0.0F : 1.0F;
       weights.world = world.black() ? 0.0F : 1.0F;
       weights.suns = suns.empty() ? 0.0F : 1.0F;
@@ -87,35 +87,35 @@ struct Lights::Impl {
     return int(!tree.empty()) + int(!world.black()) + int(!suns.empty()) == 1;
   }
 
-  [[nodiscard]] LightSample sample_tree(const Vec3& point, const Vec3& normal, const Vec2& place,
+  [[nodiscard]] LightSample sample_tree(const Vec3& point, const Vec3& normal, const Vec2& on_light,
                                         float u) const {
     const LightTree::Choice choice = tree.choose(point, normal, u);
     if (choice.probability == 0) return {};
     LightSample sample =
         choice.light < lamps.size()
-            ? sample_lamp(lamps[choice.light], point, place)
-            : sample_emissive_triangle(emissive_triangles[choice.light - lamps.size()], point, place);
+            ? sample_lamp(lamps[choice.light], point, on_light)
+            : sample_emissive_triangle(emissive_triangles[choice.light - lamps.size()], point, on_light);
     sample.pdf *= choice.probability;
     return sample;
   }
 
-  [[nodiscard]] LightSample sample_emissive_triangle(const EmissiveTriangle& glow, const Vec3& point,
+  [[nodiscard]] LightSample sample_emissive_triangle(const EmissiveTriangle& emitter, const Vec3& point,
                                                      const Vec2& u) const {
-    const LightTriangle::Place place = glow.shape.sample(point, u);
-    if (place.pdf == 0) return {};
+    const LightTriangle::Sample on_light = emitter.shape.sample(point, u);
+    if (on_light.pdf == 0) return {};
     LightSample sample;
-    sample.direction = place.direction;
-    sample.distance = place.distance;
-    sample.pdf = place.pdf;
-    sample.sample_bsdf = true;
-    const Vec2* uv = &triangles.uv[3 * std::size_t(glow.triangle)];
-    sample.radiance =
-        materials.emission(triangles.material[glow.triangle],
-                           uv[0] * (1 - place.b1 - place.b2) + uv[1] * place.b1 + uv[2] * place.b2);
+    sample.direction = on_light.direction;
+    sample.distance = on_light.distance;
+    sample.pdf = on_light.pdf;
+    sample.bsdf_can_hit = true;
+    const Vec2* uv = &triangles.uv[3 * std::size_t(emitter.triangle)];
+    sample.radiance = materials.emission(
+        triangles.material[emitter.triangle],
+        uv[0] * (1 - on_light.b1 - on_light.b2) + uv[1] * on_light.b1 + uv[2] * on_light.b2);
     return sample;
   }
 
-  [[nodiscard]] LightSample sample_suns(const Vec3& normal, const Vec2& place, float u) const {
+  [[nodiscard]] LightSample sample_suns(const Vec3& normal, const Vec2& on_light, float u) const {
     float sum = 0;
     for (const Lamp& sun : suns) sum += sun_importance(sun, normal);
     float below = 0;
@@ -123,7 +123,7 @@ struct Lights::Impl {
       const float share = sun_importance(sun, normal) / sum;
       below += share;
       if (share == 0 || (u >= below && &sun != &suns.back())) continue;
-      LightSample sample = sample_lamp(sun, Vec3(0, 0, 0), place);
+      LightSample sample = sample_lamp(sun, Vec3(0, 0, 0), on_light);
       sample.pdf *= share;
       return sample;
     }
@@ -134,9 +134,10 @@ struct Lights::Impl {
   SurfaceMaterials materials;
   WorldLight world;
   std::vector<EmissiveTriangle> emissive_triangles;
-  std::vector<std::uint32_t> emissive_triangle_of;  // [triangles] -> glows; empty where nothing glows
+  std::vector<std::uint32_t>
+      emissive_triangle_of;  // [triangles] -> emissive_triangles; empty where nothing emits
   std::vector<Lamp> lamps, suns;
-  LightTree tree;  // of lamps, then glows
+  LightTree tree;  // of lamps, then emissive_triangles
 };
 
 Lights::Lights(const DiffuseScene& scene, const Triangles& triangles, const std::string& blender_version,
@@ -153,7 +154,7 @@ bool Lights::empty() const {
 LightSample Lights::sample(const Vec3& point, const Vec3& normal, const Vec3& u) const {
   const Impl::Weights weights = impl_->weigh(point, normal);
   if (weights.groups == 0) return {};
-  const Vec2 place(u.y, u.z);
+  const Vec2 on_light(u.y, u.z);
   const float tree = weights.share(weights.tree), world = weights.share(weights.world);
   const auto within = [&](float from, float width) {
     return std::clamp((u.x - from) / width, 0.0F, 0.99999994F);
@@ -161,14 +162,14 @@ LightSample Lights::sample(const Vec3& point, const Vec3& normal, const Vec3& u)
   LightSample sample;
   float probability = tree;
   if (u.x < tree) {
-    sample = impl_->sample_tree(point, normal, place, within(0, tree));
+    sample = impl_->sample_tree(point, normal, on_light, within(0, tree));
   } else if (u.x < tree + world || weights.suns == 0) {
     if (world == 0) return {};  // rounding ran past the tree
-    sample = impl_->world.sample(normal, place, within(tree, world));
+    sample = impl_->world.sample(normal, on_light, within(tree, world));
     probability = world;
   } else {
     probability = weights.share(weights.suns);
-    sample = impl_->sample_suns(normal, place, within(tree + world, probability));
+    sample = impl_->sample_suns(normal, on_light, within(tree + world, probability));
   }
   sample.pdf *= probability;
   return sample;
@@ -190,14 +191,14 @@ float Lights::world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direc
 
 float Lights::triangle_pdf(const Vec3& point, const Vec3& normal, std::uint32_t triangle,
                            const Vec3& direction, float distance) const {
-  if (impl_->emissive_triangle_of.empty() || impl_->emissive_triangle_of[triangle] == not_glowing) return 0;
-  const std::uint32_t glow = impl_->emissive_triangle_of[triangle];
-  const auto light = static_cast<std::uint32_t>(impl_->lamps.size()) + glow;
+  if (impl_->emissive_triangle_of.empty() || impl_->emissive_triangle_of[triangle] == not_emissive) return 0;
+  const std::uint32_t emitter = impl_->emissive_triangle_of[triangle];
+  const auto light = static_cast<std::uint32_t>(impl_->lamps.size()) + emitter;
   const float choice = impl_->tree.probability(point, normal, light);
   if (choice == 0) return 0;
   const Impl::Weights weights = impl_->weigh(point, normal);
   return weights.share(weights.tree) * choice *
-         impl_->emissive_triangles[glow].shape.pdf(point, direction, distance);
+         impl_->emissive_triangles[emitter].shape.pdf(point, direction, distance);
 }
 
 }  // namespace rnmbake

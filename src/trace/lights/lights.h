@@ -1,4 +1,4 @@
-// trace/lights/lights.h - everything that emits, to be sampled from a point: lamps, suns, world, glowing
+// trace/lights/lights.h - all lights of a scene, to be sampled from a point: lamps, suns, the world, emissive
 // triangles.
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace rnmbake {
 
-/// `normal`: only light from its side counts; the zero vector: light from everywhere.
-/// Lamps (point, spot, area, sun) are met by sample() alone. Glowing triangles and the world are met by rays
-/// too, so they have a pdf for a given direction.
+/// `normal`: of the hemisphere that light is sampled for; the zero vector: of the whole sphere.
+/// Lamps (point, spot, area, sun) are found by sample() alone. Rays hit emissive triangles and the world as
+/// well, so these have a pdf for a given direction.
 class Lights {
  public:
-  /// Scene and triangles must outlive it; the triangles are relative to `origin`, and so is everything then.
-  /// `blender_version` ("3.4.1") says what the numbers of a light mean (docs/reference.md).
+  /// Scene and triangles must outlive it. The triangles, and with them all points, are relative to `origin`.
+  /// `blender_version` ("3.4.1"): whose units the lamps have (docs/reference.md).
   Lights(const DiffuseScene& scene, const Triangles& triangles, const std::string& blender_version,
          const Vec3d& origin = Vec3d(0));
   ~Lights();
@@ -28,16 +28,16 @@ class Lights {
 
   [[nodiscard]] bool empty() const;
 
-  /// `u` in [0,1)^3: the choice, and the place on the light.
+  /// `u` in [0,1)^3: the choice of the light, and the point on it.
   [[nodiscard]] LightSample sample(const Vec3& point, const Vec3& normal, const Vec3& u) const;
 
-  /// Radiance from a direction in which nothing is hit.
+  /// Radiance of the world from a direction.
   [[nodiscard]] Vec3 world(const Vec3& direction) const;
-  /// The same in every direction: sampled here, but left to chance by Cycles.
+  /// Whether it is the same from every direction: Cycles then does not sample it as a light.
   [[nodiscard]] bool world_is_even() const;
-  /// What sample() would have as pdf for that direction of the world.
+  /// Pdf of sample() for the world in a direction.
   [[nodiscard]] float world_pdf(const Vec3& point, const Vec3& normal, const Vec3& direction) const;
-  /// ... and for a place on a glowing triangle (index into Triangles) at `distance` along `direction`.
+  /// ... and for a point on an emissive triangle (index into Triangles) at `distance` along `direction`.
   [[nodiscard]] float triangle_pdf(const Vec3& point, const Vec3& normal, std::uint32_t triangle,
                                    const Vec3& direction, float distance) const;
 

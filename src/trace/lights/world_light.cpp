@@ -13,30 +13,31 @@ float brightness(const Vec3& c) {
   return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
 }
 
-/// sin^2 of half the angle from the upper pole to the edge above a row: the sphere's share up there, exact
-/// near the pole.
+/// Share of the sphere above a row: sin^2 of half the angle from the upper pole, which is exact near the
+/// pole.
 double share_above(int row, int rows) {
   const double sine = std::sin(pi / 2 * row / rows);
   return sine * sine;
 }
 
-/// Of the sphere. The lower half mirrors the upper one, so that no digits are lost at its pole.
+/// Share of the sphere in a row. The lower half mirrors the upper one, so that no digits are lost at its
+/// pole.
 double share_of_row(int row, int rows) {
   const int upper = std::min(row, rows - 1 - row);
   return share_above(upper + 1, rows) - share_above(upper, rows);
 }
 
-/// The v of a place within a row, even per solid angle for an even `place` (0: the row's upper edge).
-float v_within(int row, int rows, float place) {
+/// The v coordinate within a row, uniform per solid angle for a uniform `u` (0: the row's upper edge).
+float v_within(int row, int rows, float u) {
   const bool mirrored = row > rows - 1 - row;
   const int upper = std::min(row, rows - 1 - row);
   const double low = share_above(upper, rows), high = share_above(upper + 1, rows);
-  const double share = low + (high - low) * double(mirrored ? 1 - place : place);
+  const double share = low + (high - low) * double(mirrored ? 1 - u : u);
   const auto polar = static_cast<float>(2 * std::asin(std::sqrt(share)) / pi);
   return mirrored ? polar : 1 - polar;
 }
 
-/// The cell of running sums that `u` falls in; `u` becomes the place within it.
+/// Inverts a CDF: the cell that `u` falls in; `u` becomes the position within it.
 int find_cell(const float* sums, int count, float& u) {
   const float* above = std::upper_bound(sums + 1, sums + count, u);
   const int cell = std::min(static_cast<int>(above - sums), count) - 1;
@@ -44,7 +45,7 @@ int find_cell(const float* sums, int count, float& u) {
   return cell;
 }
 
-/// Turns weights into running sums that end at 1; returns their total.
+/// Makes a CDF of weights; returns their total.
 double running_sums(const std::vector<double>& weights, float* sums) {
   double total = 0;
   for (const double weight : weights) total += weight;
@@ -71,7 +72,7 @@ WorldLight::WorldLight(const DiffuseScene& scene) : constant_(scene.world.radian
 void WorldLight::build_table() {
   const int w = picture_->width, h = picture_->height;
   std::vector<double> across(std::size_t(w) * h), row(w), rows(h);
-  // The mean of bilinear reading over a texel: 3/4 of itself and 1/8 of each neighbour, on both axes.
+  // Bilinear filtering averaged over a texel: 3/4 of itself and 1/8 of each neighbour, on both axes.
   for (int y = 0; y < h; ++y) {
     const Vec3* texels = &picture_->texels[std::size_t(y) * w];
     for (int x = 0; x < w; ++x) {
@@ -117,7 +118,7 @@ Vec3 WorldLight::radiance(const Vec3& direction) const {
 LightSample WorldLight::sample(const Vec3& normal, const Vec2& u, float extra) const {
   LightSample sample = picture_ ? sample_picture(u) : sample_constant(normal, u, extra);
   sample.distance = infinity;
-  sample.sample_bsdf = true;
+  sample.bsdf_can_hit = true;
   return sample;
 }
 
@@ -133,11 +134,11 @@ float WorldLight::pdf(const Vec3& normal, const Vec3& direction) const {
 
 LightSample WorldLight::sample_picture(const Vec2& u) const {
   const int w = picture_->width, h = picture_->height;
-  Vec2 place(u.x, u.y);
-  const int y = find_cell(rows_.data(), h, place.y);
+  Vec2 within(u.x, u.y);
+  const int y = find_cell(rows_.data(), h, within.y);
   const float* row = &cells_[std::size_t(y) * (w + 1)];
-  const int x = find_cell(row, w, place.x);
-  const Vec2 uv((static_cast<float>(x) + place.x) / static_cast<float>(w), v_within(y, h, place.y));
+  const int x = find_cell(row, w, within.x);
+  const Vec2 uv((static_cast<float>(x) + within.x) / static_cast<float>(w), v_within(y, h, within.y));
   LightSample sample;
   sample.direction = world_direction(uv);
   sample.radiance = read(uv);

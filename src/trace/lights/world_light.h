@@ -1,5 +1,4 @@
-// trace/lights/world_light.h - light from where nothing is hit: constant, or a picture sampled by what it
-// holds.
+// trace/lights/world_light.h - the environment light: constant, or a picture with importance sampling.
 #pragma once
 
 #include "base/math.h"
@@ -10,10 +9,10 @@
 
 namespace rnmbake {
 
-/// A constant world is sampled on the normal's side only, half of the samples evenly and half by cosine: fit
-/// for a surface and for normals that tilt away from it. A picture is sampled by brightness x solid angle of
-/// its cells; a cell is a texel with its share of the neighbours that bilinear reading mixes in, so that
-/// nothing that shines goes unsampled.
+/// A constant world is sampled over the normal's hemisphere, half of the samples uniformly and half by the
+/// cosine: good for the surface and for directions tilted off it. A picture is sampled by brightness x solid
+/// angle of its cells; a cell is a texel with the share of its neighbours that bilinear filtering mixes in,
+/// so that no light has density 0.
 class WorldLight {
  public:
   explicit WorldLight(const DiffuseScene& scene);
@@ -23,7 +22,7 @@ class WorldLight {
   /// Brightness, averaged over the sphere.
   [[nodiscard]] float average() const { return average_; }
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;
-  /// `extra` in [0,1) chooses between the ways to sample.
+  /// `extra` in [0,1) chooses between the two densities of a constant world.
   [[nodiscard]] LightSample sample(const Vec3& normal, const Vec2& u, float extra) const;
   [[nodiscard]] float pdf(const Vec3& normal, const Vec3& direction) const;
 

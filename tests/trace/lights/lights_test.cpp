@@ -91,7 +91,7 @@ TEST(LightsTest, DensitiesAgree) {
     const Vec3 point(4 * next() - 2, 4 * next() - 2, 2 * next());
     const Vec3 normal = i % 3 == 0 ? Vec3(0, 0, 0) : i % 3 == 1 ? up : tilted;
     const LightSample sample = lights.sample(point, normal, {next(), next(), next()});
-    if (sample.pdf == 0 || !sample.sample_bsdf) continue;
+    if (sample.pdf == 0 || !sample.bsdf_can_hit) continue;
     if (std::isinf(sample.distance)) {
       ++worlds;
       EXPECT_NEAR(lights.world_pdf(point, normal, sample.direction), sample.pdf, 1e-4 * sample.pdf);
@@ -146,7 +146,7 @@ TEST(LightsTest, DensitiesIntegrateToTheShareOfChanceHits) {
   for (int i = 0; i < samples; ++i) {
     const auto next = [&] { return static_cast<float>(random() >> 8) * 0x1p-24F; };
     const LightSample sample = lights.sample(point, up, {next(), next(), next()});
-    chance += sample.pdf > 0 && sample.sample_bsdf;
+    chance += sample.pdf > 0 && sample.bsdf_can_hit;
   }
   const double share = double(chance) / samples;
   EXPECT_NEAR(sum, share, 4 * std::sqrt(share * (1 - share) / samples) + 1e-3);

@@ -79,7 +79,7 @@ TEST(WorldLightTest, DensitiesAreThoseOfTheSamples) {
   int differ = 0;
   for (int i = 0; i < 100000; ++i) {
     const LightSample sample = world.sample(up, {next(), next()}, next());
-    EXPECT_TRUE(sample.sample_bsdf);
+    EXPECT_TRUE(sample.bsdf_can_hit);
     EXPECT_TRUE(std::isinf(sample.distance));
     EXPECT_NEAR((sample.radiance - world.radiance(sample.direction)).length(), 0, 0.01);
     differ += std::abs(world.pdf(up, sample.direction) - sample.pdf) > 1e-4F * sample.pdf;
