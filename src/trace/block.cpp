@@ -22,11 +22,11 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const PointSource& points,
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
       framed_(coefficients_ > 0 || options.faults.any() || !few_directions()),
-      receivers_(most_receivers + lamp_samples),
-      lobes_(most_receivers + lamp_samples),
-      normals_((most_receivers + lamp_samples) * options.directions.size()),
-      shared_vertices_(most_receivers),
-      back_faces_(most_receivers) {
+      states_(most_points + lamp_samples),
+      lobes_(most_points + lamp_samples),
+      normals_((most_points + lamp_samples) * options.directions.size()),
+      shared_vertices_(most_points),
+      back_faces_(most_points) {
   if (!options.faults.any()) return;
   recipe_.emplace(options.faults, options.blender_version);
   if (!options.faults.self_reflection) return;
@@ -38,7 +38,7 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const PointSource& points,
 void BlockGatherer::batch(std::size_t first, std::size_t count, int samples, std::uint64_t seed,
                           BatchStatistics& statistics) {
   const bool lamps = options_.sample_lights && !scene_.lights().empty();
-  for (std::size_t i = 0; i < count; ++i) receivers_[i].sums = statistics.texel(i);
+  for (std::size_t i = 0; i < count; ++i) states_[i].sums = statistics.texel(i);
   for (int s = 0; s < samples; ++s) {
     for (std::size_t i = 0; i < count; ++i) {
       Sampler sampler(hash_of(seed, 2 * i), static_cast<std::uint32_t>(s));
@@ -58,22 +58,22 @@ void BlockGatherer::batch(std::size_t first, std::size_t count, int samples, std
 }
 
 /// Turns the sums into what Cycles bakes without colour, by the mean albedo over the footprint.
-void BlockGatherer::apply_no_diffuse(std::size_t i, std::size_t receiver) {
+void BlockGatherer::apply_no_diffuse(std::size_t i, std::size_t index) {
   constexpr std::uint32_t points = 16;
   Vec3 albedo(0);
   for (std::uint32_t k = 0; k < points; ++k) {
     Sampler sampler(0, k);
-    const GatherPoint point = points_.sample(receiver, sampler.next2());
+    const GatherPoint point = points_.sample(index, sampler.next2());
     albedo += own_->albedo(point.triangle, point.barycentric);
   }
   for (std::size_t k = 0; k < directions_; ++k)
-    receivers_[i].sums[k] = without_color(receivers_[i].sums[k], albedo);
+    states_[i].sums[k] = without_color(states_[i].sums[k], albedo);
 }
 
 /// Samples a point of the footprint, and the directions' normals there.
-void BlockGatherer::start_sample(std::size_t i, std::size_t receiver, Sampler& sampler) {
-  const GatherPoint point = points_.sample(receiver, sampler.next2());
-  Receiver& it = receivers_[i];
+void BlockGatherer::start_sample(std::size_t i, std::size_t index, Sampler& sampler) {
+  const GatherPoint point = points_.sample(index, sampler.next2());
+  PointState& it = states_[i];
   it.point = point;
   it.ray_offset = ray_offset_at(point.position);
   it.origin = point.position + point.face * it.ray_offset;
@@ -93,7 +93,7 @@ void BlockGatherer::start_sample(std::size_t i, std::size_t receiver, Sampler& s
 
 /// Prepares the density of primary rays.
 void BlockGatherer::set_lobes(std::size_t i) {
-  const GatherPoint& point = receivers_[i].point;
+  const GatherPoint& point = states_[i].point;
   const Vec3* normals = &normals_[i * directions_];
   const bool few = few_directions();
   CosineLobes lobes(point.face, coefficients_ > 0 || !few);
@@ -108,7 +108,7 @@ void BlockGatherer::set_lobes(std::size_t i) {
 
 /// Adds light from a direction to all estimates. `light`: radiance over pdf.
 void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light) {
-  const Receiver& it = receivers_[i];
+  const PointState& it = states_[i];
   const Vec3* normals = &normals_[i * directions_];
   const Vec3 over_pi = light * inv_pi;
   for (std::size_t k = 0; k < directions_; ++k) {
@@ -122,17 +122,17 @@ void BlockGatherer::add(std::size_t i, const Vec3& direction, const Vec3& light)
 }
 
 /// Next-event estimation: from several points of the footprint, one light each.
-void BlockGatherer::sample_lamps(std::size_t i, std::size_t receiver, std::uint64_t seed, int sample) {
+void BlockGatherer::sample_lamps(std::size_t i, std::size_t index, std::uint64_t seed, int sample) {
   std::array<Ray, lamp_samples> rays;
   std::array<LightSample, lamp_samples> lights;
   std::array<std::size_t, lamp_samples> from{};
   std::size_t count = 0;
   for (std::size_t k = 0; k < lamp_samples; ++k) {
     Sampler sampler(seed, static_cast<std::uint32_t>(std::size_t(sample) * lamp_samples + k));
-    const std::size_t slot = most_receivers + k;
-    Receiver& it = receivers_[slot];
-    it.sums = receivers_[i].sums;
-    start_sample(slot, receiver, sampler);
+    const std::size_t slot = most_points + k;
+    PointState& it = states_[slot];
+    it.sums = states_[i].sums;
+    start_sample(slot, index, sampler);
     const LightSample light = scene_.lights().sample(it.origin, horizon(slot), sampler.next3());
     if (!(light.pdf > 0)) continue;
     if (!(light.direction.dot(it.point.face) > grazing_sine)) {
@@ -163,7 +163,7 @@ void BlockGatherer::sample_lamps(std::size_t i, std::size_t receiver, std::uint6
 /// Adds a light below the face: Cycles asks only whether it is above the horizon of the closure.
 void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
   if (!sampled_below(scene_.lights(), light)) return;
-  const Receiver& it = receivers_[i];
+  const PointState& it = states_[i];
   const Vec3 start = own_->start_below(it.point.triangle, it.point.barycentric, it.origin, light.direction);
   ++rays_;
   const Visibility visibility =
@@ -183,7 +183,7 @@ void BlockGatherer::add_below(std::size_t i, const LightSample& light) {
 /// Traces the primary ray and the path behind it. Emission and sky are added at once, reflected radiance is
 /// left in `shared_vertices_`.
 void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
-  const Vec3 origin = receivers_[i].origin;
+  const Vec3 origin = states_[i].origin;
   SharedVertex& shared = shared_vertices_[i];
   shared.radiance = Vec3(0);
   const float choice = sampler.next1();
@@ -217,16 +217,16 @@ void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
   shared = {vertex.position, vertex.face, vertex.start(), radiance / end.stop_probability, end.visibility};
 }
 
-/// Adds the vertex that receiver `finder` found to every receiver that sees it.
+/// Adds the vertex that point `finder` found to every point that sees it.
 void BlockGatherer::share(std::size_t finder, std::size_t count) {
   const SharedVertex& vertex = shared_vertices_[finder];
-  std::array<Ray, most_receivers> rays;
-  std::array<std::size_t, most_receivers> who{};  // on the right side of both faces
+  std::array<Ray, most_points> rays;
+  std::array<std::size_t, most_points> who{};  // on the right side of both faces
   std::size_t candidates = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3& origin = receivers_[i].origin;
+    const Vec3& origin = states_[i].origin;
     const Vec3 to_vertex = vertex.position - origin;
-    const bool faces = to_vertex.dot(vertex.face) < 0 && to_vertex.dot(receivers_[i].point.face) > 0;
+    const bool faces = to_vertex.dot(vertex.face) < 0 && to_vertex.dot(states_[i].point.face) > 0;
     if (!faces || i == finder) continue;
     const Vec3 segment = vertex.target - origin;
     const float length = segment.length();
@@ -234,7 +234,7 @@ void BlockGatherer::share(std::size_t finder, std::size_t count) {
     who[candidates++] = i;
   }
   rays_ += static_cast<std::int64_t>(candidates);
-  std::array<Visibility, most_receivers> visibilities;
+  std::array<Visibility, most_points> visibilities;
   std::size_t seeing = 0;
   for (std::size_t first = 0; first < candidates; first += TraceScene::packet) {
     const std::size_t size = std::min(TraceScene::packet, candidates - first);
@@ -249,11 +249,11 @@ void BlockGatherer::share(std::size_t finder, std::size_t count) {
   visibilities[seeing] = vertex.visibility;
   who[seeing++] = finder;
 
-  std::array<Vec3, most_receivers> directions;
-  std::array<float, most_receivers> geometry{};  // solid angle per area at the vertex
-  float density = 0;                             // of finding the vertex, per area
+  std::array<Vec3, most_points> directions;
+  std::array<float, most_points> geometry{};  // solid angle per area at the vertex
+  float density = 0;                          // of finding the vertex, per area
   for (std::size_t k = 0; k < seeing; ++k) {
-    const Vec3 to_vertex = vertex.position - receivers_[who[k]].origin;
+    const Vec3 to_vertex = vertex.position - states_[who[k]].origin;
     const float distance2 = to_vertex.dot(to_vertex), distance = std::sqrt(distance2);
     directions[k] = to_vertex / distance;
     // Rounding can put a vertex that is all but touched below the face, where nothing bounds its weight.

@@ -38,8 +38,8 @@ class GatherJob {
         options_(options),
         texel_samples_(*target.surface, target.width, target.height, options.footprint, options.past_edge) {
     if (options.faults.any()) own_.emplace(scene, target);
-    for (std::size_t first = 0; first < texels(); first += BlockGatherer::most_receivers) {
-      blocks_.push_back({first, std::min(BlockGatherer::most_receivers, texels() - first), 1, 0, {}, 0, {}});
+    for (std::size_t first = 0; first < texels(); first += BlockGatherer::most_points) {
+      blocks_.push_back({first, std::min(BlockGatherer::most_points, texels() - first), 1, 0, {}, 0, {}});
     }
   }
 

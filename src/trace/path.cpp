@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-// Bounces before Russian roulette. Early: receivers share the first vertex of a path, not the rest of it.
+// Bounces before Russian roulette. Early: only the first vertex of a path is shared by a block.
 constexpr int first_roulette = 1;
 
 float largest(const Vec3& c) {

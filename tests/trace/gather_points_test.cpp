@@ -17,8 +17,8 @@ class FreePoints : public PointSource {
  public:
   explicit FreePoints(std::vector<GatherPoint> points) : points_(std::move(points)) {}
   [[nodiscard]] std::size_t size() const override { return points_.size(); }
-  [[nodiscard]] GatherPoint sample(std::size_t receiver, const Vec2& /*u*/) const override {
-    return points_[receiver];
+  [[nodiscard]] GatherPoint sample(std::size_t index, const Vec2& /*u*/) const override {
+    return points_[index];
   }
 
  private:
