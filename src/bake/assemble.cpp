@@ -10,7 +10,7 @@
 namespace rnmbake {
 namespace {
 
-/// A tile's picture addressed by texels of the whole lightmap, row 0 on top.
+/// A rectangle's picture addressed by texels of the whole lightmap, row 0 on top.
 class Window {
  public:
   Window(const AtlasRect& rect, const FloatImage& picture, int map_height)

@@ -1,4 +1,4 @@
-// bake/assemble.h - the tiles that were baked for a target become its per-basis pictures.
+// bake/assemble.h - the atlas rectangles that were baked for a target become its per-basis pictures.
 #pragma once
 
 #include "bake/plan.h"
@@ -9,7 +9,7 @@
 
 namespace rnmbake {
 
-/// `pictures`: for each tile of `tiles` (all of one target) what was baked, RGBA with alpha = coverage.
+/// `pictures`: for each of `rects` (all of one target) what was baked, RGBA with alpha = coverage.
 /// `surface` gives the geometry for the horizon identity (bake/receiver.h) and for the frames; it may be
 /// null where neither is needed. Throws Error(tasks_failed) if no texel at all was baked although the
 /// target covers some.
@@ -21,7 +21,7 @@ namespace rnmbake {
 /// Fills `tangent` and `normal` of bakes whose coverage has its size.
 void fill_frames(const Surface& surface, TargetBakes& bakes);
 
-/// True where a target has tiles that only the identity can put together.
+/// True where a target has rectangles that only the identity can put together.
 [[nodiscard]] bool needs_surface(const std::vector<const AtlasRect*>& rects);
 
 }  // namespace rnmbake

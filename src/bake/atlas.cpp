@@ -7,19 +7,19 @@
 namespace rnmbake {
 namespace {
 
-/// Fills shelves from the bottom, left to right; an atlas that the next tile would make too large is closed
-/// and a new one begun.
+/// Fills shelves from the bottom, left to right; an atlas that the next rectangle would make too large is
+/// closed and a new one begun.
 class ShelfPacker {
  public:
   ShelfPacker(int width, std::int64_t max_pixels) : width_(width), max_pixels_(max_pixels) {}
 
-  Placement place(const RectSize& tile) {
-    if (x_ + tile.width > width_) next_shelf();
-    if (top_ > 0 && !fits(tile)) next_atlas();
+  Placement place(const RectSize& rect) {
+    if (x_ + rect.width > width_) next_shelf();
+    if (top_ > 0 && !fits(rect)) next_atlas();
     const Placement placed{atlases_.size(), x_, y_};
-    x_ += tile.width;
+    x_ += rect.width;
     used_width_ = std::max(used_width_, x_);
-    top_ = std::max(top_, y_ + tile.height);
+    top_ = std::max(top_, y_ + rect.height);
     return placed;
   }
 
@@ -29,8 +29,8 @@ class ShelfPacker {
   }
 
  private:
-  [[nodiscard]] bool fits(const RectSize& tile) const {
-    return std::int64_t(std::max(used_width_, x_ + tile.width)) * std::max(top_, y_ + tile.height) <=
+  [[nodiscard]] bool fits(const RectSize& rect) const {
+    return std::int64_t(std::max(used_width_, x_ + rect.width)) * std::max(top_, y_ + rect.height) <=
            max_pixels_;
   }
   void next_shelf() {
@@ -48,13 +48,13 @@ class ShelfPacker {
   int x_ = 0, y_ = 0, top_ = 0, used_width_ = 0;
 };
 
-/// The smallest power of two that makes the tiles about square, and never narrower than the widest.
-int choose_width(const std::vector<RectSize>& tiles, std::int64_t max_pixels) {
+/// The smallest power of two that makes the rectangles about square, and never narrower than the widest.
+int choose_width(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
   std::int64_t pixels = 0;
   int widest = 1;
-  for (const RectSize& tile : tiles) {
-    pixels += std::int64_t(tile.width) * tile.height;
-    widest = std::max(widest, tile.width);
+  for (const RectSize& rect : rects) {
+    pixels += std::int64_t(rect.width) * rect.height;
+    widest = std::max(widest, rect.width);
   }
   const double side = std::sqrt(static_cast<double>(std::min(pixels, max_pixels)));
   int width = 1;
@@ -64,15 +64,15 @@ int choose_width(const std::vector<RectSize>& tiles, std::int64_t max_pixels) {
 
 }  // namespace
 
-AtlasPlan pack(const std::vector<RectSize>& tiles, std::int64_t max_pixels) {
-  std::vector<std::size_t> order(tiles.size());
+AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
+  std::vector<std::size_t> order(rects.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return tiles[a].height > tiles[b].height; });
-  ShelfPacker packer(choose_width(tiles, max_pixels), max_pixels);
+                   [&](std::size_t a, std::size_t b) { return rects[a].height > rects[b].height; });
+  ShelfPacker packer(choose_width(rects, max_pixels), max_pixels);
   AtlasPlan plan;
-  plan.placements.resize(tiles.size());
-  for (const std::size_t tile : order) plan.placements[tile] = packer.place(tiles[tile]);
+  plan.placements.resize(rects.size());
+  for (const std::size_t rect : order) plan.placements[rect] = packer.place(rects[rect]);
   plan.atlases = packer.finish();
   return plan;
 }

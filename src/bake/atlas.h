@@ -1,4 +1,4 @@
-// bake/atlas.h - places many tiles into as few pictures as a limit allows.
+// bake/atlas.h - places many rectangles into as few pictures as a limit allows.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ struct RectSize {
 
 struct Placement {
   std::size_t atlas = 0;
-  int x = 0, y = 0;  // texel of the tile's lower left corner
+  int x = 0, y = 0;  // texel of the rectangle's lower left corner
 };
 
 struct AtlasPlan {
   std::vector<RectSize> atlases;
-  std::vector<Placement> placements;  // [tiles], in the order given
+  std::vector<Placement> placements;  // [rects], in the order given
 };
 
-/// Shelf packing, tallest first. No atlas has more than `max_pixels` unless a single tile alone does; a
-/// single tile gets an atlas of its own size.
-[[nodiscard]] AtlasPlan pack(const std::vector<RectSize>& tiles, std::int64_t max_pixels);
+/// Shelf packing, tallest first. No atlas has more than `max_pixels` unless a single rectangle alone does; a
+/// single rectangle gets an atlas of its own size.
+[[nodiscard]] AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels);
 
 }  // namespace rnmbake

@@ -23,7 +23,7 @@ struct CyclesSettings {
   bool operator==(const CyclesSettings&) const = default;
 };
 
-/// A sheet cropped to the texels that it covers. Texel rows count from the bottom.
+/// A receiver pass cropped to the texels that it covers. Texel rows count from the bottom.
 struct AtlasRect {
   std::size_t target = 0;
   ReceiverPass pass;
@@ -32,12 +32,12 @@ struct AtlasRect {
 };
 
 /// The smallest piece that can be baked alone: one basis of one target, with all that it needs but `moments`,
-/// which are a unit of their own since every basis shares them.
+/// which are a task of their own since every basis shares them.
 struct BakeTask {
   std::size_t target = 0;
   std::string name;                // of the basis, or "horizon"
   std::size_t basis = 0;           // index into the bases
-  std::vector<std::size_t> rects;  // indices into Plan::tiles
+  std::vector<std::size_t> rects;  // indices into Plan::rects
   CyclesSettings cycles;
 };
 
@@ -54,21 +54,22 @@ struct Plan {
   std::vector<Batch> batches;
 };
 
-/// Crops the sheets of one target and adds them as units. Empty sheets are left out.
+/// Crops the passes of one target and adds them as tasks. Passes without a texel are left out.
 void add_receiver_tasks(Plan& plan, std::size_t target_index, const Target& target, ReceiverPasses passes,
                         const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
 
-/// Units without receivers, for flat-normal-map: Blender bakes the object itself. One whole tile each.
+/// Tasks without receivers, for flat-normal-map: Blender bakes the object itself. One rectangle each, the
+/// whole lightmap.
 void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target,
                       const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
 
-/// Groups units into launches: one for each unit, each target, or all that share their Cycles settings.
+/// Groups tasks into batches: one for each task, each target, or all that share their Cycles settings.
 void group_tasks(Plan& plan, BakingSettings::Dispatch mode);
 
 /// What `automatic` means for a recipe: joined for receivers, a launch for each object otherwise.
 [[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
 
-/// The two halves of a dispatch that failed; at a boundary between targets where there is one.
+/// The two halves of a batch that failed; at a boundary between targets where there is one.
 [[nodiscard]] std::vector<Batch> split(const Batch& batch, const Plan& plan);
 
 /// Bytes that Blender's peak grows by with one pixel of an atlas, one triangle of the scene and one triangle

@@ -64,10 +64,10 @@ WeightPolygon inside_map(const SurfaceTriangle& triangle) {
   return polygon;
 }
 
-/// Cuts one target into sheets, triangle by triangle.
-class SheetMaker {
+/// Cuts one target into receiver passes, triangle by triangle.
+class PassMaker {
  public:
-  SheetMaker(const std::vector<BasisDirection>& bases, Horizon horizon, const Vec2& map)
+  PassMaker(const std::vector<BasisDirection>& bases, Horizon horizon, const Vec2& map)
       : bases_(bases),
         horizon_(horizon),
         map_(map),
@@ -174,7 +174,7 @@ Vec3 raise_above(const Vec3& n, const Vec3& face_normal, float sine) {
 
 ReceiverPasses make_receiver_passes(const Surface& surface, const std::vector<BasisDirection>& bases,
                                     ObjectSettings::Horizon horizon, const Vec2& map) {
-  SheetMaker maker(bases, horizon, map);
+  PassMaker maker(bases, horizon, map);
   maker.reserve(surface.triangles.size());
   for (const SurfaceTriangle& triangle : surface.triangles) maker.add(triangle);
   return maker.finish();

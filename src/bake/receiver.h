@@ -44,7 +44,7 @@ struct HorizonCounts {
 
 struct ReceiverPasses {
   std::vector<ReceiverPass>
-      passes;  // one with role basis for each basis, in order; then below and moment sheets
+      passes;  // one with role basis for each basis, in order; then below and moment passes
   HorizonCounts counts;
 };
 

@@ -1,6 +1,7 @@
 #include "bake/request.h"
 
 #include "base/error.h"
+#include "config/recipe_names.h"
 
 #include <algorithm>
 #include <fstream>
@@ -52,8 +53,8 @@ std::string pixels_name(std::size_t picture) {
   return "pixels" + std::to_string(picture) + ".f32";
 }
 
-/// Corner arrays of several tiles as one mesh over one atlas: all positions, then all normals, then all UVs.
-/// Goes through the tiles once for each, so that no second copy of them is held.
+/// Corner arrays of several rectangles as one mesh over one atlas: all positions, then all normals, then all
+/// UVs. Goes through the rectangles once for each, so that no second copy of them is held.
 class JoinedCorners {
  public:
   void add(const AtlasRect& rect, const Target& target, const Placement& place) {
@@ -110,7 +111,7 @@ json base_request(const Batch& batch, const Plan& plan, const char* recipe) {
 json write_atlas(const BakeContext& context, const BatchLayout& layout, std::size_t atlas,
                  const fs::path& folder) {
   const RectSize size = layout.atlas.atlases[atlas];
-  std::map<std::string, std::vector<std::size_t>> by_group;  // light group -> positions in layout.tiles
+  std::map<std::string, std::vector<std::size_t>> by_group;  // light group -> positions in layout.rects
   std::int64_t texels = 0;
   for (std::size_t i = 0; i < layout.rects.size(); ++i) {
     if (layout.atlas.placements[i].atlas != atlas) continue;
@@ -135,7 +136,7 @@ json write_atlas(const BakeContext& context, const BatchLayout& layout, std::siz
           {"pixels", pixels_name(atlas)}, {"groups", groups},      {"covered_texels", texels}};
 }
 
-/// The fences of all targets of a dispatch: their corners, then `up` once for each corner.
+/// The fences of all targets of a batch: their corners, then `up` once for each corner.
 json write_fences(const Batch& batch, const Plan& plan, const fs::path& folder) {
   std::set<std::size_t> targets;
   if (!plan.fences.empty()) {
@@ -231,7 +232,8 @@ nlohmann::json to_json(const CyclesSettings& settings) {
 
 BakeRequest receiver_request(const BakeContext& context, const Batch& batch, std::int64_t max_pixels,
                              const fs::path& folder) {
-  BakeRequest request{base_request(batch, context.plan, "receiver"), {rects_of(batch, context.plan), {}}};
+  BakeRequest request{base_request(batch, context.plan, name_of(BakingSettings::Recipe::receiver)),
+                      {rects_of(batch, context.plan), {}}};
   request.json["glow_heights"] = context.plan.glow_heights;
   request.json["fences"] = write_fences(batch, context.plan, folder);
   std::vector<RectSize> sizes;
@@ -246,7 +248,7 @@ BakeRequest receiver_request(const BakeContext& context, const Batch& batch, std
 
 BakeRequest object_request(const BakeContext& context, const Batch& batch, bool correct_bump,
                            const fs::path& folder) {
-  BakeRequest request{base_request(batch, context.plan, "flat-normal-map"),
+  BakeRequest request{base_request(batch, context.plan, flat_normal_map_name),
                       {rects_of(batch, context.plan), {}}};
   request.json["correct_bump"] = correct_bump;
   std::map<std::size_t, json> described;

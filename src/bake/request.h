@@ -14,10 +14,10 @@
 
 namespace rnmbake {
 
-/// Where each tile of a dispatch was put: which picture, and at which texel.
+/// Where each atlas rectangle of a batch was put: which picture, and at which texel.
 struct BatchLayout {
-  std::vector<std::size_t> rects;  // indices into Plan::tiles
-  AtlasPlan atlas;                 // placements in the order of `tiles`
+  std::vector<std::size_t> rects;  // indices into Plan::rects
+  AtlasPlan atlas;                 // placements in the order of `rects`
 };
 
 /// Everything that a request is made from.
@@ -33,7 +33,7 @@ struct BakeRequest {
   BatchLayout layout;
 };
 
-/// Receivers of all units, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
+/// Receivers of all tasks, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
 /// positions, normals, UVs of each group of corners) into `folder`.
 [[nodiscard]] BakeRequest receiver_request(const BakeContext& context, const Batch& batch,
                                            std::int64_t max_pixels, const std::filesystem::path& folder);
@@ -44,7 +44,7 @@ struct BakeRequest {
 
 [[nodiscard]] nlohmann::json to_json(const CyclesSettings& settings);
 
-/// The tiles (RGBA, row 0 on top, in the order of layout.tiles) of a finished dispatch.
+/// The rectangles (RGBA, row 0 on top, in the order of layout.rects) of a finished batch.
 /// Throws Error(tasks_failed) where a file is not as long as its picture.
 [[nodiscard]] std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan,
                                                  const std::filesystem::path& folder);

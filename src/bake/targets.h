@@ -3,6 +3,7 @@
 
 #include "base/math.h"
 #include "config/bake_settings.h"
+#include "encoding/flip_green.h"
 #include "scene/survey.h"
 #include "scene/uv_report.h"
 
@@ -73,7 +74,7 @@ struct Target {
 
 /// A basis vector in the right-handed, Y-up frame of scene/tangents.h, whatever the target's green channel.
 [[nodiscard]] inline Vec3 in_frame(const Vec3& basis, const Target& target) {
-  return {basis.x, target.flip_green ? -basis.y : basis.y, basis.z};
+  return target.flip_green ? flip_green(basis) : basis;
 }
 
 /// An object of the scene that is not baked, and why.

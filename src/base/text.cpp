@@ -61,4 +61,15 @@ std::string shortened(std::string_view text, std::size_t bytes) {
   return text.size() <= bytes ? std::string(text) : cut_utf8(text, bytes) + "...";
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
+
 }  // namespace rnmbake

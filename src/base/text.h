@@ -1,7 +1,9 @@
-// base/text.h - text for people: counts with their nouns, control characters made visible.
+// base/text.h - text for people: counts with their nouns, control characters made visible, case
+// left out of account.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -20,5 +22,11 @@ std::string valid_utf8(std::string_view text);
 
 /// At most `bytes` bytes of it, with "..." where something was left out.
 std::string shortened(std::string_view text, std::size_t bytes);
+
+/// A to Z become a to z; every other byte stays.
+std::string lower_case(std::string text);
+
+/// ".exr" of "Map.EXR"; "" where there is none.
+std::string lower_extension(const std::filesystem::path& file);
 
 }  // namespace rnmbake

@@ -1,7 +1,7 @@
 #include "blender/blend_path.h"
 
-#include <algorithm>
-#include <cctype>
+#include "base/text.h"
+
 #include <stdexcept>
 
 namespace rnmbake {
@@ -9,10 +9,7 @@ namespace rnmbake {
 namespace fs = std::filesystem;
 
 bool is_blend(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".blend";
+  return lower_extension(file) == ".blend";
 }
 
 BlendPath::BlendPath(const fs::path& file) : path_(fs::absolute(file)) {

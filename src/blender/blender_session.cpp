@@ -30,32 +30,33 @@ std::string purpose_of(const Launch& launch) {
 
 }  // namespace
 
-Workspace::Workspace(const ResolvedConfig& config, Blender& blender) : config_(config), blender_(blender) {
+BlenderSession::BlenderSession(const ResolvedConfig& config, Blender& blender)
+    : config_(config), blender_(blender) {
   if (!settings().output.keep_temporary) return;
   folder_.keep();
   mark_as_kept(folder_.path());
   log::info("temporary files stay in {}", folder_.path().string());
 }
 
-std::filesystem::path Workspace::new_folder(const std::string& purpose) {
+std::filesystem::path BlenderSession::new_folder(const std::string& purpose) {
   auto folder = folder_.path() / fmt::format("{:03}-{}", launches_++, purpose);
   make_folders(folder);
   return folder;
 }
 
-LaunchLimits Workspace::limits() const {
+LaunchLimits BlenderSession::limits() const {
   LaunchLimits limits;
   limits.stall_seconds = settings().run.timeout;
   limits.total_seconds = settings().run.launch_timeout;
   return limits;
 }
 
-int Workspace::threads(int jobs) const {
+int BlenderSession::threads(int jobs) const {
   if (settings().run.threads > 0) return settings().run.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
 }
 
-nlohmann::json Workspace::run(Launch launch) {
+nlohmann::json BlenderSession::run(Launch launch) {
   if (launch.threads == 0) launch.threads = threads(1);
   log::debug("{} in {}", launch.entry, launch.folder.string());
   LaunchOutcome outcome = [&] {

@@ -1,4 +1,4 @@
-// blender/blender_session.h - what every step of a bake shares: settings, a Blender, a private folder.
+// blender/blender_session.h - what all launches of one command share: settings, a Blender, a private folder.
 #pragma once
 
 #include "base/files.h"
@@ -14,9 +14,11 @@
 
 namespace rnmbake {
 
-class Workspace {
+/// One command's launches: the settings they follow, the Blender that runs them, a private folder for their
+/// files.
+class BlenderSession {
  public:
-  Workspace(const ResolvedConfig& config, Blender& blender);
+  BlenderSession(const ResolvedConfig& config, Blender& blender);
 
   [[nodiscard]] const ResolvedConfig& config() const { return config_; }
   [[nodiscard]] const BakeSettings& settings() const { return config_.globals; }

@@ -16,10 +16,10 @@ ScriptFolder::ScriptFolder(const std::optional<fs::path>& instead) {
     return;
   }
   path_ = unpacked_.emplace().path();
-  for (const EmbeddedScript& script : embedded_scripts()) {
-    const fs::path file = path_ / script.name;
+  for (const auto& [name, text] : embedded_scripts()) {
+    const fs::path file = path_ / name;
     make_folders(file.parent_path());
-    write_atomically(file, script.text);
+    write_atomically(file, text);
   }
 }
 

@@ -7,17 +7,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rnmbake {
 
-struct EmbeddedScript {
-  const char* name;  // below blender_scripts/: "core/task.py"
-  const char* text;
-};
-
-/// Generated at build time by cmake/EmbedScripts.cmake.
-const std::vector<EmbeddedScript>& embedded_scripts();
+/// Generated at build time by cmake/Embed.cmake; names below blender_scripts/ with their
+/// texts.
+const std::vector<std::pair<const char*, const char*>>& embedded_scripts();
 
 /// A folder with all scripts for as long as this object lives.
 class ScriptFolder {

@@ -35,13 +35,13 @@ int bake(const ResolvedConfig& config) {
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // a missing Blender is said before anything is written
-  Workspace workspace(config, blender);
+  BlenderSession session(config, blender);
   prepare_output(config.globals.output);
-  const SurveyResult scene = survey_scene(workspace);
+  const SurveyResult scene = survey_scene(session);
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
-  EarlierLightmaps earlier = find_earlier(workspace, {"bake", bases}, scene.survey, list.targets);
-  return report(run_bake(workspace, {scene.survey, list, bases, scene.blends, std::move(earlier)}),
+  EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
+  return report(run_bake(session, {scene.survey, list, bases, scene.blends, std::move(earlier)}),
                 config.globals.output);
 }
 

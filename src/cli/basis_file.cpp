@@ -74,7 +74,8 @@ std::vector<BasisDirection> choose_bases(const BakingSettings& settings) {
   }
   if (!settings.basis.empty() && settings.bases.empty()) return set.directions;
   std::vector<BasisDirection> known = set.directions;
-  if (std::ranges::count(known, "flat", &BasisDirection::name) == 0) known.push_back(flat_direction());
+  if (std::ranges::count(known, flat_direction().name, &BasisDirection::name) == 0)
+    known.push_back(flat_direction());
   std::vector<BasisDirection> chosen;
   for (const std::string& name : settings.bases) {
     const auto found = std::ranges::find(known, name, &BasisDirection::name);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "encoding/basis_set.h"
 #include "image/display_png.h"
 #include "image/layered_exr.h"
@@ -9,7 +10,6 @@
 #include "pipeline/ssbump/decode_ssbump.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -58,7 +58,7 @@ LightmapMetadata assumed_metadata(const DecodeOptions& options, const std::strin
 
 LightmapMetadata metadata_of(const DecodeOptions& options, const LayeredImage& image) {
   const auto layer = image.attributes.find("rnmbake:layer");
-  const bool is_flat = layer != image.attributes.end() && layer->second == Attribute(std::string("flat"));
+  const bool is_flat = layer != image.attributes.end() && layer->second == Attribute(flat_direction().name);
   if (layer != image.attributes.end() && !(is_flat && variant_of(options) == DecodeVariant::single)) {
     refuse(options, "it holds one layer of a lightmap only",
            "decode the file of a bake with --layout layers");
@@ -103,15 +103,8 @@ FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
   return decode(std::move(lightmap), normals, variant);
 }
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 void write(const DecodeOptions& options, FloatImage&& picture) {
-  if (extension_of(options.output) == ".png")
+  if (lower_extension(options.output) == ".png")
     return write_display_png(options.output, picture, options.exposure);
   const float gain = std::exp2(options.exposure);
   for (float& value : picture.data()) value *= gain;
@@ -136,7 +129,7 @@ void check_vector(const std::vector<float>& n) {
 }
 
 void check_options(DecodeOptions& options) {
-  const std::string extension = extension_of(options.output);
+  const std::string extension = lower_extension(options.output);
   if (extension != ".exr" && extension != ".png") {
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", options.output.string());
   }

@@ -34,7 +34,7 @@ struct ExportFlags {
 fs::path choose_file(const BakeSettings& settings) {
   const fs::path& given = settings.output.dir;
   if (given.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o FILE.rnmscene, or a folder");
-  if (is_exchange(given)) return given;
+  if (is_rnmscene(given)) return given;
   return given / settings.scene.file.stem().concat(diffuse_scene_ending);
 }
 
@@ -109,8 +109,8 @@ void export_to_file(const ResolvedConfig& config, bool json_wanted, std::ostream
   if (file.has_parent_path()) make_folders(file.parent_path());
   AtomicFile(file).write(" ");  // never committed: finds out now that nothing can be written there
   LateBlender blender(config.globals);
-  Workspace workspace(config, blender);
-  const ExportResult exported = export_scene(workspace);
+  BlenderSession session(config, blender);
+  const ExportResult exported = export_scene(session);
   write_diffuse_scene(file, exported.diffuse_scene);
   if (json_wanted) {
     out << as_json(exported, file).dump(2) << '\n';

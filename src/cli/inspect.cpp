@@ -27,8 +27,8 @@ struct InspectFlags {
 void inspect(ResolvedConfig config, bool as_json, std::ostream& out) {
   config.globals.scene.materials = SceneSettings::Materials::full;  // look at the scene as it is
   LateBlender blender(config.globals);
-  Workspace workspace(config, blender);
-  const SceneSurvey survey = survey_scene(workspace).survey;
+  BlenderSession session(config, blender);
+  const SceneSurvey survey = survey_scene(session).survey;
   const Inspection inspection = inspect_scene(survey, config);
   if (as_json) {
     out << inspection_json(survey, inspection).dump(2) << '\n';

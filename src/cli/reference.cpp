@@ -43,21 +43,20 @@ int reference(const ResolvedConfig& config) {
   const BakeSettings& settings = config.globals;
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
-  if (!is_exchange(settings.scene.file)) (void)blender.info();  // missing: said before anything is written
+  if (!is_rnmscene(settings.scene.file)) (void)blender.info();  // missing: said before anything is written
   (void)plan_reference(config, "5.0");  // and so is a setting that makes no sense, whatever the version
-  Workspace workspace(config, blender);
+  BlenderSession session(config, blender);
   prepare_output(settings.output);
-  const ExportResult exported = export_scene(workspace);
+  const ExportResult exported = export_scene(session);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
   check_light(config, survey);
   say_what_is_left_out(exported.diffuse_scene);
   const ReferencePlan plan = plan_reference(config, survey.blender_version);
   const TraceScene scene(exported.diffuse_scene, plan.blender_version);
-  const EarlierLightmaps earlier =
-      find_earlier(workspace, {"reference", bases}, survey, exported.list.targets);
+  const EarlierLightmaps earlier = find_earlier(session, {"reference", bases}, survey, exported.list.targets);
   SavedScene saved;
   if (exported.blends) {
-    saved = save_scene_with_uvs(workspace, survey, exported.blends->own,
+    saved = save_scene_with_uvs(session, survey, exported.blends->own,
                                 earlier.add_to(uvs_of(exported.list.targets)));
   }
   log::info("tracing {} x {} against Blender {}", counted(exported.list.targets.size(), "lightmap"),

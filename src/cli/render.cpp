@@ -42,7 +42,7 @@ class Stage {
       : config_(config),
         flags_(flags),
         blender_(config.globals),
-        workspace_(config_, blender_),
+        session_(config_, blender_),
         exported_(opened()),
         plan_(plan_reference(config_, exported_.diffuse_scene.survey.blender_version)),
         scene_(exported_.diffuse_scene, plan_.blender_version) {
@@ -62,7 +62,7 @@ class Stage {
     options.render = render_options(true);
     options.own_materials = flags_.materials == "full";
     Report report;
-    report.views.push_back(compare_view(workspace_, exported_, scene_, *lightmaps_, options));
+    report.views.push_back(compare_view(session_, exported_, scene_, *lightmaps_, options));
     report.finding = finding_of(report.views.front());
     const ViewOptions& view = options.render.view;
     report.settings = {{"size", fmt::format("{} x {}", view.width, view.height)},
@@ -75,8 +75,8 @@ class Stage {
 
  private:
   ExportResult opened() {
-    if (!is_exchange(config_.globals.scene.file)) (void)blender_.info();
-    ExportResult exported = export_scene(workspace_);
+    if (!is_rnmscene(config_.globals.scene.file)) (void)blender_.info();
+    ExportResult exported = export_scene(session_);
     give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
   }
@@ -94,7 +94,7 @@ class Stage {
 
   [[nodiscard]] FloatImage cycles(const RenderOptions& options) {
     const BakeSettings& settings = config_.globals;
-    auto pictures = render_cycles(workspace_, exported_,
+    auto pictures = render_cycles(session_, exported_,
                                   {options.view.width,
                                    options.view.height,
                                    options.view.samples,
@@ -117,7 +117,7 @@ class Stage {
   const ResolvedConfig& config_;
   const RenderFlags& flags_;
   LateBlender blender_;
-  Workspace workspace_;
+  BlenderSession session_;
   ExportResult exported_;
   ReferencePlan plan_;
   TraceScene scene_;
@@ -127,9 +127,9 @@ class Stage {
 /// "RNM, squared" -> "rnm-squared.exr".
 std::string file_name(const std::string& label) {
   std::string name;
-  for (const char c : label) {
+  for (const char c : lower_case(label)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      name += c;
     } else if (!name.empty() && name.back() != '-') {
       name += '-';
     }
@@ -152,7 +152,7 @@ void write_comparison(Report report, const ResolvedConfig& config, const RenderF
 
 int render(ResolvedConfig config, const RenderFlags& flags) {
   if (const auto saved = scene_with_lightmap_uvs(flags.lightmaps);
-      saved && !is_exchange(config.globals.scene.file)) {
+      saved && !is_rnmscene(config.globals.scene.file)) {
     log::info("opening {}, which has the UVs that were made for these lightmaps", saved->string());
     config.globals.scene.file = *saved;
   }

@@ -1,11 +1,11 @@
 #include "cli/render_flags.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "cli/command_line.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
 #include <CLI/CLI.hpp>
@@ -21,13 +21,6 @@ constexpr std::array view_settings{"bounces",         "seed",           "device"
                                    "blender_version", "blender",        "scripts",       "threads",
                                    "timeout",         "launch_timeout", "keep_temporary"};
 
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 /// The whole text as a number of pixels.
 std::optional<int> pixels(const std::string& text) {
   int number = 0;
@@ -40,7 +33,7 @@ std::optional<int> pixels(const std::string& text) {
 }  // namespace
 
 bool is_png(const std::filesystem::path& file) {
-  return ending_of(file) == ".png";
+  return lower_extension(file) == ".png";
 }
 
 RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::reference, view_settings) {
@@ -92,7 +85,7 @@ void RenderFlags::check() {
     fail(ExitCode::usage, "--resolution {} is not a size; give one such as 640x360, {} to {} pixels a side",
          resolution, smallest, largest);
   }
-  const bool has_ending = is_png(output) || ending_of(output) == ".exr";
+  const bool has_ending = is_png(output) || lower_extension(output) == ".exr";
   if (compare && has_ending)
     fail(ExitCode::usage, "--compare writes a folder, and {} is a picture; name a folder", output.string());
   if (!compare && !has_ending)

@@ -8,6 +8,7 @@
 #include "cli/basis_file.h"
 #include "cli/command_line.h"
 #include "cli/settings_flags.h"
+#include "config/recipe_names.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/validate/validate_run.h"
 #include "process/stop.h"
@@ -79,7 +80,7 @@ ThresholdOutcome write_reports(Validation& found, const ResolvedConfig& config, 
     found.recipe->title = scene + ": flat-normal-map against the reference";
     found.recipe->command = found.receiver.command;
     found.receiver.notes.emplace_back("The same for flat-normal-map: flat-normal-map/report.html");
-    write_report(*found.recipe, dir / "flat-normal-map");
+    write_report(*found.recipe, dir / flat_normal_map_name);
   }
   write_report(found.receiver, dir);
   return found.receiver.thresholds;
@@ -91,9 +92,9 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // a missing Blender is said before anything is written
-  Workspace workspace(config, blender);
+  BlenderSession session(config, blender);
   prepare_output(config.globals.output);
-  Validation found = validate(workspace, bases, {flags.decompose, flags.study == "split", flags.view});
+  Validation found = validate(session, bases, {flags.decompose, flags.study == "split", flags.view});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
   std::cout << printable(found.receiver.finding) << '\n';
   log::info("report: {}", (config.globals.output.dir / "report.html").string());

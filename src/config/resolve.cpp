@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/names.h"
+#include "base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <system_error>
 
@@ -18,12 +18,6 @@ bool any_match(const std::vector<std::string>& patterns, std::string_view name, 
   return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
     return glob_match(pattern, name) || glob_match(pattern, key);
   });
-}
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
 }
 
 void check_limits(const ObjectSettings& object, const std::string& where) {
@@ -171,7 +165,7 @@ std::vector<UnmatchedPattern> unmatched_patterns(const ResolvedConfig& config,
 }
 
 bool is_project_path(const std::filesystem::path& path) {
-  return extension_of(path) == ".toml";
+  return lower_extension(path) == ".toml";
 }
 
 void require_scene(const ResolvedConfig& config, Purpose purpose) {
@@ -183,7 +177,7 @@ void require_scene(const ResolvedConfig& config, Purpose purpose) {
   if (file.empty()) {
     fail(ExitCode::usage, "no scene: name a {} file, or a project .toml whose [scene] sets file", known);
   }
-  if (std::find(endings.begin(), endings.end(), extension_of(file)) == endings.end()) {
+  if (std::find(endings.begin(), endings.end(), lower_extension(file)) == endings.end()) {
     fail(ExitCode::usage, "{}: not a scene by its ending; give a {} file, or a project .toml", file.string(),
          known);
   }

@@ -1,5 +1,7 @@
 #include "config/settings_table.h"
 
+#include "config/recipe_names.h"
+
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
@@ -26,7 +28,7 @@ Spelling spelling(SceneSettings::Materials) {
   return {"full", "lambert"};
 }
 Spelling spelling(BakingSettings::Recipe) {
-  return {"receiver", "flat-normal-map"};
+  return {name_of(BakingSettings::Recipe::receiver), name_of(BakingSettings::Recipe::flat_normal_map)};
 }
 Spelling spelling(BakingSettings::Dispatch) {
   return {"auto", "basis", "object", "scene"};
@@ -38,7 +40,7 @@ Spelling spelling(ReferenceSettings::Footprint) {
   return {"auto", "centre", "half", "full"};
 }
 Spelling spelling(ReferenceSettings::Model) {
-  return {"true", "flat-normal-map"};
+  return {name_of(ReferenceSettings::Model::truth), name_of(ReferenceSettings::Model::flat_normal_map)};
 }
 Spelling spelling(OutputSettings::Layout) {
   return {"layers", "files"};

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/names.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <array>
@@ -18,9 +19,7 @@ namespace rnmbake {
 namespace {
 
 bool same_but_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
+  return lower_case(std::string(a)) == lower_case(std::string(b));
 }
 
 std::string_view trimmed(std::string_view text) {

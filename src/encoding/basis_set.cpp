@@ -1,11 +1,12 @@
 #include "encoding/basis_set.h"
 
 #include "base/error.h"
+#include "base/text.h"
+#include "encoding/encodings.h"
 #include "encoding/rnm.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 
@@ -18,12 +19,6 @@ bool is_near(const Vec3& a, const Vec3& b) {
   return (a - b).length() < kTolerance;
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 void check_name(const BasisSet& set, std::size_t at) {
   const std::string& name = set.directions[at].name;
   if (!is_file_safe(name)) {
@@ -32,20 +27,18 @@ void check_name(const BasisSet& set, std::size_t at) {
          set.name, name);
   }
   for (const char* reserved : {"coverage", "tangent", "normal", "validity"}) {
-    if (lower(name) == reserved) {
+    if (lower_case(name) == reserved) {
       fail(ExitCode::invalid_input,
            "{}: basis name '{}' is taken by a layer of every lightmap; choose another", set.name, name);
     }
   }
-  const bool is_harmonic =
-      name.size() == 3 && lower(name).starts_with("sh") && name[2] >= '0' && name[2] <= '8';
-  if (is_harmonic || lower(name).ends_with("_stderr")) {
+  if (holds_layer(sh_encoding, lower_case(name)) || lower_case(name).ends_with("_stderr")) {
     fail(ExitCode::invalid_input, "{}: basis name '{}' is taken by a layer of references; choose another",
          set.name, name);
   }
   // Files of two names that differ only in case would overwrite each other on some systems.
   for (std::size_t other = 0; other < at; ++other) {
-    if (lower(set.directions[other].name) == lower(name)) {
+    if (lower_case(set.directions[other].name) == lower_case(name)) {
       fail(ExitCode::invalid_input,
            "{}: basis names '{}' and '{}' are the same (case does not count); rename one", set.name,
            set.directions[other].name, name);
@@ -70,7 +63,7 @@ void check_direction(const BasisSet& set, const BasisDirection& basis) {
     fail(ExitCode::invalid_input, "{}: direction of basis '{}' has length {:.6f}; scale it to length 1",
          set.name, name, length);
   }
-  if (lower(name) == "flat" && (name != "flat" || !is_near(v, flat_direction().direction))) {
+  if (lower_case(name) == "flat" && (name != "flat" || !is_near(v, flat_direction().direction))) {
     fail(ExitCode::invalid_input, "{}: the name '{}' is kept for 'flat' = (0, 0, 1); rename this direction",
          set.name, name);
   }
@@ -80,11 +73,14 @@ void check_direction(const BasisSet& set, const BasisDirection& basis) {
 
 BasisSet rnm_set() {
   const auto basis = rnm_basis();
-  return {"rnm", {{"rnm0", basis[0]}, {"rnm1", basis[1]}, {"rnm2", basis[2]}}};
+  BasisSet set{std::string(rnm_encoding.name), {}};
+  for (std::size_t i = 0; i < basis.size(); ++i)
+    set.directions.push_back({std::string(rnm_layers[i]), basis[i]});
+  return set;
 }
 
 BasisDirection flat_direction() {
-  return {"flat", Vec3(0, 0, 1)};
+  return {std::string(flat_layers.front()), Vec3(0, 0, 1)};
 }
 
 bool holds_rnm(const BasisSet& set) {

@@ -1,12 +1,12 @@
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "image/oiio_open.h"
 #include "image/picture_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <cstddef>
 #include <exception>
 #include <optional>
@@ -26,13 +26,6 @@ constexpr std::array kFormats{
     Format{".png", {true, true, false, false}}, Format{".tga", {true, false, false, false}},
     Format{".tif", {true, true, true, true}}, Format{".tiff", {true, true, true, true}},
     Format{".exr", {false, false, true, true}}};
-
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 OIIO::TypeDesc type_of(Storage storage) {
   constexpr std::array types{OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
@@ -104,7 +97,7 @@ class FileProxy : public OIIO::Filesystem::IOProxy {
 }  // namespace
 
 std::string storage_obstacle(const std::filesystem::path& file, Storage storage) {
-  const std::string ending = ending_of(file);
+  const std::string ending = lower_extension(file);
   const auto* format = std::ranges::find(kFormats, ending, &Format::ending);
   const auto at = static_cast<std::size_t>(storage);
   if (format != kFormats.end() && format->holds[at]) return "";
@@ -120,7 +113,7 @@ std::string storage_obstacle(const std::filesystem::path& file, Storage storage)
 struct PictureWriter::Output {
   Output(const std::filesystem::path& path, const PictureForm& form)
       : name(path.string()), atomic(path), proxy(atomic) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_extension(path);
     file = OIIO::ImageOutput::create(ending.substr(1));
     if (!file || !file->supports("ioproxy") || !file->set_ioproxy(&proxy)) {
       fail(ExitCode::environment, "cannot write {}: this OpenImageIO has no {} writer; install one that has",

@@ -1,6 +1,7 @@
 #include "lightmap/decode.h"
 
 #include "base/error.h"
+#include "encoding/flip_green.h"
 #include "encoding/rnm.h"
 #include "image/channels.h"
 #include "image/sample.h"
@@ -15,20 +16,16 @@ namespace {
 
 void require_layers(const Lightmap& lightmap, DecodeVariant variant) {
   const bool scales = variant == DecodeVariant::vrad && lightmap.metadata.normalize == Normalize::none;
-  if ((variant == DecodeVariant::single || scales) && lightmap.flat.empty()) {
+  if ((variant == DecodeVariant::single || scales) && !lightmap.holds(flat_encoding)) {
     fail(ExitCode::unsupported,
          "the {} decode needs the flat layer, which this lightmap does not have; bake flat too",
          name_of(variant));
   }
   if (variant == DecodeVariant::single) return;
-  if (std::ranges::any_of(lightmap.rnm, &FloatImage::empty)) {
+  if (!lightmap.holds(rnm_encoding)) {
     fail(ExitCode::unsupported, "the {} decode needs the layers rnm0, rnm1 and rnm2; bake all three",
          name_of(variant));
   }
-}
-
-const FloatImage& sized_like(const Lightmap& lightmap) {
-  return lightmap.flat.empty() ? lightmap.rnm[0] : lightmap.flat;
 }
 
 Vec3 colour(const FloatImage& map, const std::array<Tap, 4>& taps) {
@@ -72,7 +69,7 @@ std::optional<std::string> rnm_obstacle(const LightmapMetadata& metadata, Decode
 }  // namespace
 
 Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata) {
-  const auto colours = [&](const char* name) {
+  const auto colours = [&](const std::string& name) {
     const Layer* layer = image.find(name);
     const auto places = layer == nullptr ? std::vector<int>{} : places_of(layer->channels, "RGB");
     if (places.empty()) return FloatImage();
@@ -80,10 +77,23 @@ Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata
   };
   const Layer* coverage = image.find("coverage");
   const bool is_single = coverage != nullptr && coverage->pixels.channels() == 1;
-  return {metadata,
-          colours(""),
-          {colours("rnm0"), colours("rnm1"), colours("rnm2")},
-          is_single ? coverage->pixels : FloatImage()};
+  Lightmap lightmap{metadata, {}, is_single ? coverage->pixels : FloatImage()};
+  for (const Encoding& encoding : encodings) {
+    for (const std::string_view name : encoding.layers) {
+      if (FloatImage pixels = colours(exr_layer(name)); !pixels.empty())
+        lightmap.layers.emplace(name, std::move(pixels));
+    }
+  }
+  return lightmap;
+}
+
+bool Lightmap::holds(const Encoding& encoding) const {
+  return std::ranges::all_of(encoding.layers, [&](std::string_view name) { return layers.contains(name); });
+}
+
+FloatImage Lightmap::take(std::string_view layer) {
+  const auto found = layers.find(layer);
+  return found == layers.end() ? FloatImage() : std::move(layers.extract(found).mapped());
 }
 
 const char* name_of(DecodeVariant variant) {
@@ -122,38 +132,41 @@ std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata, Dec
   return variant == DecodeVariant::single ? std::nullopt : rnm_obstacle(metadata, variant);
 }
 
-LightmapDecoder::LightmapDecoder(Lightmap lightmap, DecodeVariant variant)
-    : lightmap_(std::move(lightmap)), variant_(variant) {
-  require_layers(lightmap_, variant);
-  if (variant == DecodeVariant::vrad && lightmap_.metadata.normalize == Normalize::none)
-    normalize_to_flat({&lightmap_.rnm[0], &lightmap_.rnm[1], &lightmap_.rnm[2]}, lightmap_.flat);
+LightmapDecoder::LightmapDecoder(Lightmap lightmap, DecodeVariant variant) : variant_(variant) {
+  require_layers(lightmap, variant);
+  metadata_ = std::move(lightmap.metadata);
+  flat_ = lightmap.take(flat_layers.front());
+  for (std::size_t i = 0; i < rnm_.size(); ++i) rnm_[i] = lightmap.take(rnm_layers[i]);
+  coverage_ = std::move(lightmap.coverage);
+  if (variant == DecodeVariant::vrad && metadata_.normalize == Normalize::none)
+    normalize_to_flat({&rnm_[0], &rnm_[1], &rnm_[2]}, flat_);
 }
 
 std::array<Tap, 4> LightmapDecoder::taps_at(const Vec2& uv) const {
-  const auto taps = bilinear_taps(sized_like(lightmap_), uv, Border::clamp);
-  return lightmap_.coverage.empty() ? taps : covered_taps(taps, lightmap_.coverage);
+  const auto taps = bilinear_taps(flat_.empty() ? rnm_[0] : flat_, uv, Border::clamp);
+  return coverage_.empty() ? taps : covered_taps(taps, coverage_);
 }
 
 std::array<Vec3, 3> LightmapDecoder::rnm_at(const Vec2& uv) const {
   const auto taps = taps_at(uv);
-  return {colour(lightmap_.rnm[0], taps), colour(lightmap_.rnm[1], taps), colour(lightmap_.rnm[2], taps)};
+  return {colour(rnm_[0], taps), colour(rnm_[1], taps), colour(rnm_[2], taps)};
 }
 
 Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
   const auto taps = taps_at(uv);
-  if (variant_ == DecodeVariant::single) return colour(lightmap_.flat, taps);
+  if (variant_ == DecodeVariant::single) return colour(flat_, taps);
   const std::array<Vec3, 3> maps = rnm_at(uv);
-  const Vec3 turned(normal.x, green == lightmap_.metadata.green ? normal.y : -normal.y, normal.z);
+  const Vec3 turned = green == metadata_.green ? normal : flip_green(normal);
   return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, turned)
                                            : rnm_decode_squared(maps, turned);
 }
 
 int LightmapDecoder::width() const {
-  return sized_like(lightmap_).width();
+  return (flat_.empty() ? rnm_[0] : flat_).width();
 }
 
 int LightmapDecoder::height() const {
-  return sized_like(lightmap_).height();
+  return (flat_.empty() ? rnm_[0] : flat_).height();
 }
 
 FloatImage decode(Lightmap lightmap, const NormalPicture& normal_map, DecodeVariant variant) {

@@ -3,23 +3,31 @@
 #pragma once
 
 #include "base/math.h"
+#include "encoding/encodings.h"
 #include "image/float_image.h"
 #include "image/layered_exr.h"
 #include "image/sample.h"
 #include "lightmap/metadata.h"
 
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace rnmbake {
 
-/// A lightmap file taken apart. What the file does not hold is empty.
+/// A lightmap file taken apart.
 struct Lightmap {
   LightmapMetadata metadata;
-  FloatImage flat;
-  std::array<FloatImage, 3> rnm;
-  FloatImage coverage;
+  std::map<std::string, FloatImage, std::less<>> layers;  // RGB, by the names of encoding/encodings.h
+  FloatImage coverage;                                    // one channel; empty: the file has none
+
+  [[nodiscard]] bool holds(const Encoding& encoding) const;
+
+  /// Takes the layer out; an empty picture where the file does not hold it.
+  [[nodiscard]] FloatImage take(std::string_view layer);
 };
 
 [[nodiscard]] Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata);
@@ -62,14 +70,17 @@ class LightmapDecoder {
   /// The three maps there, for decodes of other things than normals.
   [[nodiscard]] std::array<Vec3, 3> rnm_at(const Vec2& uv) const;
 
-  [[nodiscard]] const LightmapMetadata& metadata() const { return lightmap_.metadata; }
+  [[nodiscard]] const LightmapMetadata& metadata() const { return metadata_; }
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;
 
  private:
   [[nodiscard]] std::array<Tap, 4> taps_at(const Vec2& uv) const;
 
-  Lightmap lightmap_;
+  LightmapMetadata metadata_;
+  FloatImage flat_;                // empty where the file does not hold it
+  std::array<FloatImage, 3> rnm_;  // the same
+  FloatImage coverage_;
   DecodeVariant variant_;
 };
 

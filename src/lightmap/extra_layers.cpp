@@ -1,5 +1,6 @@
 #include "lightmap/extra_layers.h"
 
+#include "encoding/encodings.h"
 #include "lightmap/fill.h"
 #include "lightmap/half_range.h"
 
@@ -29,7 +30,7 @@ void add_extra_layers(ExtraLayers extra, const MergeOptions& options, LayeredIma
   for (std::size_t i = 0; i < extra.sh.size(); ++i) {
     fit(extra.sh[i], options.depth);
     if (coverage != nullptr) dilate(extra.sh[i], coverage->pixels, options.dilate);
-    layers.push_back({"sh" + std::to_string(i), rgb, std::move(extra.sh[i])});
+    layers.push_back({std::string(sh_layers[i]), rgb, std::move(extra.sh[i])});
   }
   if (!extra.validity.empty()) layers.push_back({"validity", {""}, std::move(extra.validity)});
   const auto place = std::ranges::find(image.layers, "coverage", &Layer::name);

@@ -1,5 +1,7 @@
 #include "lightmap/layout.h"
 
+#include "encoding/encodings.h"
+
 #include <utility>
 
 namespace rnmbake {
@@ -8,7 +10,7 @@ std::vector<LayerFile> one_file_per_layer(LayeredImage lightmap) {
   std::vector<LayerFile> files;
   for (Layer& layer : lightmap.layers) {
     LayerFile file;
-    file.name = layer.name.empty() ? "flat" : layer.name;
+    file.name = name_of_exr_layer(layer.name);
     file.image.attributes = lightmap.attributes;
     file.image.attributes["rnmbake:layer"] = file.name;
     if (layer.channels == std::vector<std::string>{""}) layer.channels = {"Y"};

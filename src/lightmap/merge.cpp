@@ -1,6 +1,7 @@
 #include "lightmap/merge.h"
 
 #include "base/error.h"
+#include "encoding/encodings.h"
 #include "lightmap/faults.h"
 #include "lightmap/fill.h"
 #include "lightmap/half_range.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace rnmbake {
@@ -58,7 +60,7 @@ struct Colours {
   FloatImage coverage;
   TexelMask covered;
 
-  [[nodiscard]] FloatImage* find(const std::string& name) {
+  [[nodiscard]] FloatImage* find(std::string_view name) {
     const auto found = std::ranges::find(bases, name, &BasisBake::name);
     return found == bases.end() ? nullptr : &found->radiance;
   }
@@ -107,8 +109,9 @@ void treat_faults(Colours& colours, bool repair, MergeCounts& counts) {
 }
 
 void normalize(Colours& colours, MergeCounts& counts) {
-  const FloatImage* flat = colours.find("flat");
-  const std::array<FloatImage*, 3> maps{colours.find("rnm0"), colours.find("rnm1"), colours.find("rnm2")};
+  const FloatImage* flat = colours.find(flat_layers.front());
+  const std::array<FloatImage*, 3> maps{colours.find(rnm_layers[0]), colours.find(rnm_layers[1]),
+                                        colours.find(rnm_layers[2])};
   if (flat == nullptr || std::ranges::count(maps, nullptr) > 0) {
     fail(ExitCode::usage,
          "normalize flat needs the flat bake and all of rnm0, rnm1, rnm2; add them or choose none");
@@ -141,8 +144,7 @@ MergedLightmap merge(const TargetBakes& bakes, const MergeOptions& options) {
   for (BasisBake& basis : colours.bases) {
     if (options.depth == Depth::half) merged.counts.beyond_half += clamp_to_half(basis.radiance);
     dilate(basis.radiance, colours.coverage, options.dilate);
-    const std::string layer = basis.name == "flat" ? "" : basis.name;
-    merged.image.layers.push_back({layer, {"R", "G", "B"}, std::move(basis.radiance)});
+    merged.image.layers.push_back({exr_layer(basis.name), {"R", "G", "B"}, std::move(basis.radiance)});
   }
   std::ranges::stable_sort(merged.image.layers, {},
                            [](const Layer& layer) { return layer.name.empty() ? 0 : 1; });

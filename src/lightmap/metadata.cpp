@@ -1,6 +1,7 @@
 #include "lightmap/metadata.h"
 
 #include "base/error.h"
+#include "encoding/encodings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ std::vector<std::string> split(const std::string& list) {
 }
 
 void check_layer(const Header& header, const LayeredImage& image, const std::string& name) {
-  const Layer* layer = image.find(name == "flat" ? "" : name);
+  const Layer* layer = image.find(exr_layer(name));
   if (layer != nullptr && layer->channels == std::vector<std::string>{"R", "G", "B"}) return;
   header.refuse("the header lists basis '" + name + "' but there is no RGB layer of it");
 }
@@ -107,7 +108,7 @@ void read_origin(const Header& header, LightmapMetadata& metadata) {
 }
 
 void check_agreement(const Header& header, const LightmapMetadata& metadata) {
-  const auto flat = std::ranges::find(metadata.bases, "flat", &BasisDirection::name);
+  const auto flat = std::ranges::find(metadata.bases, flat_direction().name, &BasisDirection::name);
   const bool has_flat = flat != metadata.bases.end();
   if (has_flat && (flat->direction - flat_direction().direction).length() > 1e-3F) {
     header.refuse("basis 'flat' is not (0, 0, 1)");

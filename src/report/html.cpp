@@ -144,6 +144,15 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
   return out;
 }
 
+/// Text of all embedded files whose names end so.
+std::string embedded(std::string_view ending) {
+  std::string text;
+  for (const auto& [name, content] : embedded_report()) {
+    if (std::string_view(name).ends_with(ending)) text += content;
+  }
+  return text;
+}
+
 /// Numbers stay on one line with their sign.
 std::string unbroken(std::string text) {
   for (auto at = text.find(" %"); at != std::string::npos; at = text.find(" %", at))
@@ -155,13 +164,13 @@ std::string page_with(const Report& report, const Limits& limits, int view_limit
   Blobs blobs;
   json pictures{{"objects", add_maps(report, limits, blobs)},
                 {"views", add_views(report, view_limit, blobs)}};
-  return filled(html_page, {{"title", escaped(report.title)},
-                            {"finding", unbroken(escaped(report.finding))},
-                            {"style", html_style},
-                            {"report", for_script(report_document(report))},
-                            {"pictures", for_script(pictures)},
-                            {"blobs", blobs.text()},
-                            {"script", html_script}});
+  return filled(embedded("page.html"), {{"title", escaped(report.title)},
+                                        {"finding", unbroken(escaped(report.finding))},
+                                        {"style", embedded(".css")},
+                                        {"report", for_script(report_document(report))},
+                                        {"pictures", for_script(pictures)},
+                                        {"blobs", blobs.text()},
+                                        {"script", embedded(".js")}});
 }
 
 }  // namespace

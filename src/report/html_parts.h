@@ -1,11 +1,13 @@
 // report/html_parts.h - the report's page, styles and scripts: src/report/html/, embedded by the build.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 namespace rnmbake {
 
-/// Where {{title}}, {{finding}}, {{style}}, {{report}}, {{maps}} and {{script}} stand to be filled in.
-extern const char* const html_page;
-extern const char* const html_style;
-extern const char* const html_script;
+/// Generated at build time by cmake/Embed.cmake: page.html, where {{title}}, {{style}}, {{script}} and others
+/// stand to be filled in, style.css, and the scripts in the order in which the page runs them.
+const std::vector<std::pair<const char*, const char*>>& embedded_report();
 
 }  // namespace rnmbake

@@ -1,3 +1,4 @@
 # The report's page travels inside the binary.
-include(EmbedReport)
-rnm_embed_report(${CMAKE_CURRENT_LIST_DIR}/html ROOM_SOURCES)
+include(Embed)
+rnm_embed(embedded_report ${CMAKE_CURRENT_LIST_DIR}/html ROOM_SOURCES page.html style.css
+          data.js colour.js format.js charts.js viewer.js objects.js sections.js main.js)

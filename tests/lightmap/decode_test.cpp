@@ -1,6 +1,7 @@
 #include "lightmap/decode.h"
 
 #include "base/error.h"
+#include "encoding/encodings.h"
 #include "encoding/rnm.h"
 
 #include <algorithm>
@@ -24,8 +25,9 @@ Lightmap lightmap(const std::array<Vec3, 3>& maps, const Vec3& flat, int width =
   Lightmap result;
   result.metadata.bases = rnm_set().directions;
   result.metadata.bases.push_back(flat_direction());
-  result.flat = filled(width, height, flat);
-  for (std::size_t i = 0; i < 3; ++i) result.rnm[i] = filled(width, height, maps[i]);
+  result.layers["flat"] = filled(width, height, flat);
+  for (std::size_t i = 0; i < 3; ++i)
+    result.layers[std::string(rnm_layers[i])] = filled(width, height, maps[i]);
   return result;
 }
 
@@ -108,7 +110,8 @@ TEST(Decode, GreenIsTurnedToTheLightmaps) {
 
 TEST(Decode, OutputHasTheNormalMapsSizeAndSharesTheUvs) {
   Lightmap map = coloured();
-  for (int y = 0; y < 2; ++y) std::ranges::fill(map.rnm[0].texel(3, y), 9.0F);  // the right-hand column
+  for (int y = 0; y < 2; ++y)
+    std::ranges::fill(map.layers["rnm0"].texel(3, y), 9.0F);  // the right-hand column
   NormalPicture normals{filled(8, 8, Vec3(0, 0, 1)), Green::y_up};
   const Vec3 b0 = rnm_basis()[0];
   std::ranges::copy(std::array{b0.x, b0.y, b0.z}, normals.normals.texel(7, 0).begin());
@@ -126,20 +129,21 @@ TEST(Decode, UncoveredTexelsStayOutOfTheLookup) {
   map.coverage = FloatImage(4, 2, 1);
   for (int x = 0; x < 2; ++x)
     for (int y = 0; y < 2; ++y) map.coverage.texel(x, y)[0] = 1;
-  for (FloatImage& image : map.rnm)
-    for (int y = 0; y < 2; ++y) std::ranges::fill(image.texel(2, y), std::numeric_limits<float>::quiet_NaN());
+  for (const char* name : {"rnm0", "rnm1", "rnm2"})
+    for (int y = 0; y < 2; ++y)
+      std::ranges::fill(map.layers[name].texel(2, y), std::numeric_limits<float>::quiet_NaN());
   const FloatImage result = decode(map, {filled(16, 8, Vec3(0, 0, 1)), Green::y_up}, DecodeVariant::squared);
   EXPECT_NEAR(result.texel(7, 4)[0], 0.788675, 1e-6);
 }
 
 TEST(Decode, MissingLayersAreNamed) {
   Lightmap map = coloured();
-  map.flat = {};
+  map.layers.erase("flat");
   EXPECT_THROW((void)lit(map, {0, 0, 1}, DecodeVariant::single), Error);
   EXPECT_THROW((void)lit(map, {0, 0, 1}, DecodeVariant::vrad), Error);
   expect_near(lit(map, {0, 0, 1}, DecodeVariant::squared), {1 / 3.0F, 2 / 3.0F, 1});
   map = coloured();
-  map.rnm[2] = {};
+  map.layers.erase("rnm2");
   EXPECT_THROW((void)lit(map, {0, 0, 1}, DecodeVariant::squared), Error);
   expect_near(lit(map, {0, 0, 1}, DecodeVariant::single), {0.4F, 0.5F, 0.6F});
 }
@@ -198,10 +202,10 @@ TEST(NormalsOf, ChannelsCountByName) {
 }
 
 TEST(LightmapOf, AlphaThatAnotherProgramAddedIsLeftOut) {
-  const Lightmap map = lightmap_of(picture({"R", "G", "B", "A"}, {1, 2, 3, 0.5F}), {});
-  ASSERT_FALSE(map.flat.empty());
-  expect_near(first_texel(map.flat), {1, 2, 3});
-  EXPECT_TRUE(lightmap_of(picture({"X", "Y", "Z"}, {1, 2, 3}), {}).flat.empty());
+  Lightmap map = lightmap_of(picture({"R", "G", "B", "A"}, {1, 2, 3, 0.5F}), {});
+  ASSERT_TRUE(map.holds(flat_encoding));
+  expect_near(first_texel(map.take("flat")), {1, 2, 3});
+  EXPECT_TRUE(lightmap_of(picture({"X", "Y", "Z"}, {1, 2, 3}), {}).layers.empty());
 }
 
 TEST(NormalsOf, TwoChannelsSignedOnesAndNothing) {

@@ -40,8 +40,8 @@ class SsbumpFiles : public testing::Test {
   static SsbumpMesh measure(const SsbumpMeshOptions& options) {
     const ResolvedConfig config = resolve({}, {}, {});
     LateBlender blender(config.globals);
-    Workspace workspace(config, blender);
-    return measure_ssbump_mesh(workspace, options);
+    BlenderSession session(config, blender);
+    return measure_ssbump_mesh(session, options);
   }
 
   static SsbumpMeshOptions options_for(const std::string& high, const std::vector<std::string>& onto) {
@@ -166,11 +166,11 @@ constexpr int samples = 1024;
 SsbumpWeights bake(const HeightField& field, SsbumpBlenderOptions::Lights lights) {
   const ResolvedConfig config = resolve({}, {}, {});
   LateBlender blender(config.globals);
-  Workspace workspace(config, blender);
+  BlenderSession session(config, blender);
   SsbumpBlenderOptions options;
   options.lights = lights;
   options.samples = samples;
-  return bake_height_map(workspace, field, options);
+  return bake_height_map(session, field, options);
 }
 
 /// How far a share of `draws` lies from the share expected, as a square in standard errors. Where draws of

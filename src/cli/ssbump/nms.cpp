@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "encoding/encodings.h"
 #include "image/picture_rows.h"
 #include "lightmap/decode.h"
 #include "ssbump/map/normal_map.h"
@@ -101,7 +102,7 @@ void write(const Options& options, const FloatImage& image, const std::string& w
   writer.commit();
 }
 
-void check_finite(const FloatImage& map, const char* name, const std::filesystem::path& file) {
+void check_finite(const FloatImage& map, std::string_view name, const std::filesystem::path& file) {
   const auto bad = std::ranges::find_if_not(map.data(), [](float value) { return std::isfinite(value); });
   if (bad == map.data().end()) return;
   const auto texel = static_cast<int>((bad - map.data().begin()) / map.channels());
@@ -121,13 +122,16 @@ BakedLight baked_light(const std::filesystem::path& file) {
   const LightmapMetadata metadata = read_metadata(image, file.string());
   if (const auto why = decode_obstacle(metadata, DecodeVariant::linear)) refuse(*why);
   Lightmap lightmap = lightmap_of(image, metadata);
-  if (lightmap.flat.empty()) refuse("it has no flat layer");
-  if (std::ranges::any_of(lightmap.rnm, &FloatImage::empty)) refuse("a layer of rnm0, rnm1, rnm2 is missing");
-  check_finite(lightmap.flat, "flat", file);
-  for (std::size_t i = 0; i < 3; ++i)
-    check_finite(lightmap.rnm[i], rnm_set().directions[i].name.c_str(), file);
-  return {std::move(lightmap.flat), std::move(lightmap.rnm), std::move(lightmap.coverage),
-          metadata.green == Green::y_down};
+  if (!lightmap.holds(flat_encoding)) refuse("it has no flat layer");
+  if (!lightmap.holds(rnm_encoding)) refuse("a layer of rnm0, rnm1, rnm2 is missing");
+  const auto finite = [&](std::string_view layer) {
+    FloatImage map = lightmap.take(layer);
+    check_finite(map, layer, file);
+    return map;
+  };
+  FloatImage flat = finite(flat_layers.front());
+  std::array<FloatImage, 3> rnm{finite(rnm_layers[0]), finite(rnm_layers[1]), finite(rnm_layers[2])};
+  return {std::move(flat), std::move(rnm), std::move(lightmap.coverage), metadata.green == Green::y_down};
 }
 
 SlopeCurl curl_of(const Options& options, const FloatImage& normals, int scale) {

@@ -128,9 +128,9 @@ SsbumpMesh SsbumpMeshFlags::measure(const SsbumpRays& rays) const {
   options.measure.threads = rays.threads;
   const ResolvedConfig resolved = config(rays);
   LateBlender blender(resolved.globals);
-  Workspace workspace(resolved, blender);
+  BlenderSession session(resolved, blender);
   StopRequest::install();
-  return measure_ssbump_mesh(workspace, options);
+  return measure_ssbump_mesh(session, options);
 }
 
 SsbumpWeights SsbumpMeshFlags::bake(const HeightField& field, const SsbumpRays& rays) const {
@@ -144,9 +144,9 @@ SsbumpWeights SsbumpMeshFlags::bake(const HeightField& field, const SsbumpRays& 
   options.seed = static_cast<int>(rays.seed);
   const ResolvedConfig resolved = config(rays);
   LateBlender blender(resolved.globals);
-  Workspace workspace(resolved, blender);
+  BlenderSession session(resolved, blender);
   StopRequest::install();
-  return bake_height_map(workspace, field, options);
+  return bake_height_map(session, field, options);
 }
 
 ResolvedConfig SsbumpMeshFlags::config(const SsbumpRays& rays) const {

@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "base/object_notes.h"
 #include "base/text.h"
+#include "config/recipe_names.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/manifest.h"
 #include "pipeline/lightmaps/target_facts.h"
@@ -59,163 +60,164 @@ double distance_of(const Surface& surface) {
   return surface.triangles.empty() ? 0 : Vec3d(surface.triangles.front().corners[0].position).length();
 }
 
-class BakeRun {
- public:
-  BakeRun(Workspace& workspace, const BakeSubject& subject)
-      : workspace_(workspace),
-        settings_(workspace.settings()),
-        subject_(subject),
-        list_(subject.list),
-        bases_(subject.bases),
-        horizons_(list_.targets.size()),
-        heights_(list_.targets.size()),
-        lights_(light_balls(subject.survey)) {
-    plan_.fences.resize(list_.targets.size());
-  }
-
-  BakeOutcome run() {
-    make_plan();
-    const BakeContext context{subject_.survey, list_.targets, bases_, plan_};
-    log::info("baking {} x {} in {} of Blender {}", counted(list_.targets.size(), "lightmap"),
-              counted(bases_.size(), "basis"), counted(plan_.batches.size(), "launch"),
-              workspace_.blender().info().version_text);
-    BakeCollector collector(context, settings_.output, notes_);
-    BakeOutcome outcome;
-    outcome.timings = run_batches(workspace_, context, subject_.blends.shown, collector);
-    outcome.deliveries = collector.deliveries();
-    if (may_be_lit(subject_.survey)) warn_of_black(list_.targets, outcome.deliveries);
-    write_records(outcome);
-    return outcome;
-  }
-
- private:
-  /// A target whose receivers stand too high.
-  struct Coarse {
-    std::size_t target;
-    double distance;  // from the origin
-  };
-
-  [[nodiscard]] bool by_receiver() const { return settings_.bake.recipe == BakingSettings::Recipe::receiver; }
-
-  void make_plan() {
-    FileStems stems(subject_.earlier.stems());
-    for (std::size_t i = 0; i < list_.targets.size(); ++i) {
-      const Target& target = list_.targets[i];
-      notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, nullptr});
-      plan_target(i);
-    }
-    lost_.warn();
-    group_tasks(plan_, resolve_dispatch(settings_.bake));
-    warn_of_coarse();
-    warn_of_small();
-    if (by_receiver()) warn_of_shadowless();
-  }
-
-  /// Cycles asks no surface whether it blocks them: a receiver does not know what is under its face.
-  void warn_of_shadowless() const {
-    for (const LightInfo& light : subject_.survey.lights) {
-      const auto& outside = light.outside_model;
-      if (std::ranges::find(outside, "no shadow") == outside.end()) continue;
-      log::warn(
-          "light '{}' casts no shadows: the basis maps of faces that are turned away from it take in some of "
-          "its "
-          "light; switch its shadows on",
-          light.name);
-    }
-  }
-
-  /// Cycles moves rays by lengths of its own, however small the scene.
-  void warn_of_small() const {
-    if (small_.empty()) return;
-    log::warn(
-        "{}: too small, or too far from the origin: Cycles starts rays more than a texel off its faces, and "
-        "light "
-        "that runs along them may reach them; scale the scene up, or move it to the origin",
-        first_names(small_));
-  }
-
-  /// Floats are too coarse there, in Cycles as everywhere.
-  void warn_of_coarse() const {
-    if (coarse_.empty()) return;
-    const auto& worst =
-        *std::ranges::max_element(coarse_, {}, [&](const Coarse& it) { return heights_[it.target]; });
-    const std::string more = coarse_.size() > 1 ? fmt::format(" (and {} more)", coarse_.size() - 1) : "";
-    log::warn(
-        "'{}'{} stands {:.0f} units from the origin, too far for 32-bit floats: shadows in its lightmap may "
-        "be "
-        "{:.2g} texels out of place; move the scene to the origin",
-        list_.targets[worst.target].key, more, worst.distance, heights_[worst.target]);
-  }
-
-  [[nodiscard]] LightmapMetadata metadata(std::size_t i) const {
-    const ObjectSettings& object = list_.settings[i];
-    const BlenderInfo& blender = workspace_.blender().info();
-    LightmapMetadata metadata = target_metadata(list_.targets[i], object, settings_.output);
-    metadata.recipe = by_receiver()                 ? "receiver"
-                      : settings_.bake.correct_bump ? "flat-normal-map, correct-bump"
-                                                    : "flat-normal-map";
-    metadata.horizon = !by_receiver()                                        ? "Blender's"
-                       : object.horizon == ObjectSettings::Horizon::identity ? "identity"
-                                                                             : "clamp";
-    metadata.footprint = footprint(blender.version);
-    metadata.bounces = settings_.bake.bounces;
-    metadata.blender_version = blender.version_text;
-    return metadata;
-  }
-
-  void plan_target(std::size_t i) {
-    const Target& target = list_.targets[i];
-    const CyclesSettings cycles = cycles_settings(settings_.bake, list_.settings[i]);
-    if (!by_receiver()) add_object_tasks(plan_, i, target, bases_, cycles);
-    if (!by_receiver() && !settings_.output.frames) return;
-
-    const auto surface = std::make_shared<const Surface>(surface_of(subject_.survey, target, lost_));
-    bool keep_surface = settings_.output.frames;
-    if (by_receiver()) {
-      std::vector<BasisDirection> bases = bases_;
-      for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
-      const Vec2 map(float(target.width), float(target.height));
-      ReceiverPasses passes = make_receiver_passes(*surface, bases, list_.settings[i].horizon, map);
-      Fences fences = make_fences(*surface, lights_, map);
-      plan_.fences[i] = std::move(fences.strips);
-      if (fences.left_out > 0) small_.push_back(target.key);
-      note_glow(plan_.glow_heights, subject_.survey, target.object, *surface);
-      heights_[i] = height_in_texels(*surface, map);
-      if (heights_[i] > coarse_height) coarse_.push_back({i, distance_of(*surface)});
-      horizons_[i] = passes.counts;
-      keep_surface |= passes.passes.size() > bases.size();
-      add_receiver_tasks(plan_, i, target, std::move(passes), bases_, cycles);
-    }
-    if (keep_surface) notes_[i].surface = surface;
-  }
-
-  void write_records(const BakeOutcome& outcome) {
-    const SavedScene saved = save_scene_with_uvs(workspace_, subject_.survey, subject_.blends.own,
-                                                 subject_.earlier.add_to(uvs_of(list_.targets)));
-    write_manifest(
-        {settings_, subject_.survey, list_, bases_, notes_, outcome.deliveries, saved, subject_.earlier,
-         BakeRecord{horizons_, heights_, name_of(resolve_dispatch(settings_.bake)), outcome.timings}});
-  }
-
-  Workspace& workspace_;
-  const BakeSettings& settings_;
-  const BakeSubject& subject_;
-  const TargetList& list_;
-  const std::vector<BasisDirection>& bases_;
-  Plan plan_;
-  std::vector<LightmapHeader> notes_;
-  std::vector<HorizonCounts> horizons_;
-  LostDirections lost_;
-  std::vector<double> heights_;
-  std::vector<Coarse> coarse_;
-  std::vector<std::string> small_;  // targets that are too small for fences
-  std::vector<LightBall> lights_;
+/// A target whose receivers stand too high.
+struct Coarse {
+  std::size_t target;
+  double distance;  // from the origin
 };
+
+/// The launches, and what the files and the manifest say of each target.
+struct PlannedBake {
+  Plan plan;
+  std::vector<LightmapHeader> headers;  // [targets], as the following two
+  std::vector<HorizonCounts> horizons;
+  std::vector<double> heights;  // of receivers over their faces, texels
+  std::vector<Coarse> coarse;
+  std::vector<std::string> small;  // targets that are too small for fences
+};
+
+bool by_receiver(const BakeSettings& settings) {
+  return settings.bake.recipe == BakingSettings::Recipe::receiver;
+}
+
+LightmapMetadata metadata_of(const Target& target, const ObjectSettings& object, const BakeSettings& settings,
+                             const BlenderInfo& blender) {
+  LightmapMetadata metadata = target_metadata(target, object, settings.output);
+  metadata.recipe = name_of(settings.bake.recipe);
+  if (!by_receiver(settings) && settings.bake.correct_bump) metadata.recipe += ", correct-bump";
+  metadata.horizon = !by_receiver(settings)                                ? "Blender's"
+                     : object.horizon == ObjectSettings::Horizon::identity ? "identity"
+                                                                           : "clamp";
+  metadata.footprint = footprint(blender.version);
+  metadata.bounces = settings.bake.bounces;
+  metadata.blender_version = blender.version_text;
+  return metadata;
+}
+
+/// Adds the tasks of one target, with all that its receivers need. Returns whether its surface is needed
+/// again when the pictures come back.
+bool plan_receivers(const BakeSettings& settings, const BakeSubject& subject, std::size_t i,
+                    const Surface& surface, const std::vector<LightBall>& lights, PlannedBake& planned) {
+  const Target& target = subject.list.targets[i];
+  const ObjectSettings& object = subject.list.settings[i];
+  std::vector<BasisDirection> bases = subject.bases;
+  for (BasisDirection& basis : bases) basis.direction = in_frame(basis.direction, target);
+  const Vec2 map(float(target.width), float(target.height));
+  ReceiverPasses passes = make_receiver_passes(surface, bases, object.horizon, map);
+  Fences fences = make_fences(surface, lights, map);
+  planned.plan.fences[i] = std::move(fences.strips);
+  if (fences.left_out > 0) planned.small.push_back(target.key);
+  note_glow(planned.plan.glow_heights, subject.survey, target.object, surface);
+  planned.heights[i] = height_in_texels(surface, map);
+  if (planned.heights[i] > coarse_height) planned.coarse.push_back({i, distance_of(surface)});
+  planned.horizons[i] = passes.counts;
+  const bool needs_identity = passes.passes.size() > bases.size();
+  add_receiver_tasks(planned.plan, i, target, std::move(passes), subject.bases,
+                     cycles_settings(settings.bake, object));
+  return needs_identity;
+}
+
+void plan_target(const BakeSettings& settings, const BakeSubject& subject, std::size_t i,
+                 const std::vector<LightBall>& lights, PlannedBake& planned, LostDirections& lost) {
+  const Target& target = subject.list.targets[i];
+  if (!by_receiver(settings)) {
+    add_object_tasks(planned.plan, i, target, subject.bases,
+                     cycles_settings(settings.bake, subject.list.settings[i]));
+    if (!settings.output.frames) return;
+  }
+  const auto surface = std::make_shared<const Surface>(surface_of(subject.survey, target, lost));
+  bool keep_surface = settings.output.frames;
+  if (by_receiver(settings)) keep_surface |= plan_receivers(settings, subject, i, *surface, lights, planned);
+  if (keep_surface) planned.headers[i].surface = surface;
+}
+
+/// Floats are too coarse there, in Cycles as everywhere.
+void warn_of_coarse(const PlannedBake& planned, const std::vector<Target>& targets) {
+  if (planned.coarse.empty()) return;
+  const auto& worst = *std::ranges::max_element(planned.coarse, {},
+                                                [&](const Coarse& it) { return planned.heights[it.target]; });
+  const std::string more =
+      planned.coarse.size() > 1 ? fmt::format(" (and {} more)", planned.coarse.size() - 1) : "";
+  log::warn(
+      "'{}'{} stands {:.0f} units from the origin, too far for 32-bit floats: shadows in its lightmap may "
+      "be {:.2g} texels out of place; move the scene to the origin",
+      targets[worst.target].key, more, worst.distance, planned.heights[worst.target]);
+}
+
+/// Cycles moves rays by lengths of its own, however small the scene.
+void warn_of_small(const std::vector<std::string>& small) {
+  if (small.empty()) return;
+  log::warn(
+      "{}: too small, or too far from the origin: Cycles starts rays more than a texel off its faces, and "
+      "light that runs along them may reach them; scale the scene up, or move it to the origin",
+      first_names(small));
+}
+
+/// Cycles asks no surface whether it blocks them: a receiver does not know what is under its face.
+void warn_of_shadowless(const std::vector<LightInfo>& lights) {
+  for (const LightInfo& light : lights) {
+    if (std::ranges::find(light.outside_model, "no shadow") == light.outside_model.end()) continue;
+    log::warn(
+        "light '{}' casts no shadows: the basis maps of faces that are turned away from it take in some of "
+        "its light; switch its shadows on",
+        light.name);
+  }
+}
+
+PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, const BlenderInfo& blender) {
+  const TargetList& list = subject.list;
+  PlannedBake planned;
+  planned.plan.fences.resize(list.targets.size());
+  planned.horizons.resize(list.targets.size());
+  planned.heights.resize(list.targets.size());
+  const std::vector<LightBall> lights = light_balls(subject.survey);
+  FileStems stems(subject.earlier.stems());
+  LostDirections lost;
+  for (std::size_t i = 0; i < list.targets.size(); ++i) {
+    const Target& target = list.targets[i];
+    const ObjectSettings& object = list.settings[i];
+    planned.headers.push_back(
+        {stems.take(target.key), metadata_of(target, object, settings, blender), object.dilate, nullptr});
+    plan_target(settings, subject, i, lights, planned, lost);
+  }
+  lost.warn();
+  group_tasks(planned.plan, resolve_dispatch(settings.bake));
+  warn_of_coarse(planned, list.targets);
+  warn_of_small(planned.small);
+  if (by_receiver(settings)) warn_of_shadowless(subject.survey.lights);
+  return planned;
+}
+
+/// The scene with its UVs, and the manifest.
+void write_records(BlenderSession& session, const BakeSubject& subject, const PlannedBake& planned,
+                   const BakeOutcome& outcome) {
+  const BakeSettings& settings = session.settings();
+  const SavedScene saved = save_scene_with_uvs(session, subject.survey, subject.blends.own,
+                                               subject.earlier.add_to(uvs_of(subject.list.targets)));
+  write_manifest({settings, subject.survey, subject.list, subject.bases, planned.headers, outcome.deliveries,
+                  saved, subject.earlier,
+                  BakeRecord{planned.horizons, planned.heights, name_of(resolve_dispatch(settings.bake)),
+                             outcome.timings}});
+}
 
 }  // namespace
 
-BakeOutcome run_bake(Workspace& workspace, const BakeSubject& subject) {
-  return BakeRun(workspace, subject).run();
+BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
+  const BakeSettings& settings = session.settings();
+  const std::vector<Target>& targets = subject.list.targets;
+  const BlenderInfo& blender = session.blender().info();
+  const PlannedBake planned = plan_bake(settings, subject, blender);
+  const BakeContext context{subject.survey, targets, subject.bases, planned.plan};
+  log::info("baking {} x {} in {} of Blender {}", counted(targets.size(), "lightmap"),
+            counted(subject.bases.size(), "basis"), counted(planned.plan.batches.size(), "launch"),
+            blender.version_text);
+  BakeCollector collector(context, settings.output, planned.headers);
+  BakeOutcome outcome;
+  outcome.timings = run_batches(session, context, subject.blends.shown, collector);
+  outcome.deliveries = collector.deliveries();
+  if (may_be_lit(subject.survey)) warn_of_black(targets, outcome.deliveries);
+  write_records(session, subject, planned, outcome);
+  return outcome;
 }
 
 }  // namespace rnmbake

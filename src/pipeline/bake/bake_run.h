@@ -29,9 +29,9 @@ struct BakeSubject {
   EarlierLightmaps earlier = {};  // stays in the manifest
 };
 
-/// Bakes all targets for all bases as the workspace's settings say, into their output folder, and writes the
+/// Bakes all targets for all bases as the session's settings say, into their output folder, and writes the
 /// scene with its UVs and the manifest. What fails is logged and in the manifest. Samples, seed and the like
 /// come from the list's own settings. Throws Interrupted, and Error where going on makes no sense.
-[[nodiscard]] BakeOutcome run_bake(Workspace& workspace, const BakeSubject& subject);
+[[nodiscard]] BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject);
 
 }  // namespace rnmbake

@@ -56,15 +56,15 @@ double total_work(const Plan& plan) {
 
 class Dispatcher {
  public:
-  Dispatcher(Workspace& workspace, const BakeContext& context, BlendPath blend, BakeCollector& collector)
-      : workspace_(workspace),
+  Dispatcher(BlenderSession& session, const BakeContext& context, BlendPath blend, BakeCollector& collector)
+      : session_(session),
         context_(context),
         blend_(std::move(blend)),
         collector_(collector),
-        jobs_(choose_jobs(workspace.settings(), context.plan.batches.size())),
+        jobs_(choose_jobs(session.settings(), context.plan.batches.size())),
         progress_(total_work(context.plan)) {
     for (const Batch& batch : context.plan.batches) {
-      queue_.push_back({batch, workspace.settings().run.retries});
+      queue_.push_back({batch, session.settings().run.retries});
     }
   }
 
@@ -121,13 +121,13 @@ class Dispatcher {
     Launch launch;
     launch.entry = "bake_entry.py";
     launch.scene = blend_;
-    launch.folder = workspace_.new_folder("bake");
-    launch.threads = workspace_.threads(jobs_);
+    launch.folder = session_.new_folder("bake");
+    launch.threads = session_.threads(jobs_);
     BakeRequest request = make_request(attempt.batch, launch.folder);
     launch.request = std::move(request.json);
-    launch.request.update(scene_request(workspace_, blend_.path()));
-    const LaunchOutcome outcome = workspace_.blender().run(
-        launch, workspace_.limits(), [&](const ProgressEvent& event) { show(attempt.batch, event); });
+    launch.request.update(scene_request(session_, blend_.path()));
+    const LaunchOutcome outcome = session_.blender().run(
+        launch, session_.limits(), [&](const ProgressEvent& event) { show(attempt.batch, event); });
     if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
       recover(std::move(attempt), *failure);
     } else if (auto rects = rects_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&rects)) {
@@ -136,7 +136,7 @@ class Dispatcher {
       collector_.take(attempt.batch, request.layout, std::get<0>(std::move(rects)));
       count(attempt.batch, std::get<Finished>(outcome));
     }
-    if (!workspace_.settings().output.keep_temporary) fs::remove_all(launch.folder);
+    if (!session_.settings().output.keep_temporary) fs::remove_all(launch.folder);
   }
 
   /// A launch whose pictures are missing or short failed, whatever it said; a smaller one may do.
@@ -152,14 +152,14 @@ class Dispatcher {
   }
 
   BakeRequest make_request(const Batch& batch, const fs::path& folder) const {
-    const BakeSettings& settings = workspace_.settings();
+    const BakeSettings& settings = session_.settings();
     if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map) {
       return object_request(context_, batch, settings.bake.correct_bump, folder);
     }
     return receiver_request(context_, batch, atlas_pixels_for(settings, context_, batch, jobs_), folder);
   }
 
-  /// A target that was given up takes its other units with it.
+  /// A target that was given up takes its other tasks with it.
   void drop_settled(Batch& batch) const {
     std::erase_if(batch.tasks,
                   [&](std::size_t task) { return collector_.is_settled(context_.plan.tasks[task].target); });
@@ -246,7 +246,7 @@ class Dispatcher {
     progress_.advance(batch.tasks.front(), done, in_words(event));
   }
 
-  Workspace& workspace_;
+  BlenderSession& session_;
   const BakeContext& context_;
   BlendPath blend_;
   BakeCollector& collector_;
@@ -271,9 +271,9 @@ int choose_jobs(const BakeSettings& settings, std::size_t batches) {
   return std::clamp(static_cast<int>(batches), 1, wanted);
 }
 
-BakeTimings run_batches(Workspace& workspace, const BakeContext& context, const BlendPath& blend,
+BakeTimings run_batches(BlenderSession& session, const BakeContext& context, const BlendPath& blend,
                         BakeCollector& collector) {
-  return Dispatcher(workspace, context, blend, collector).run();
+  return Dispatcher(session, context, blend, collector).run();
 }
 
 }  // namespace rnmbake

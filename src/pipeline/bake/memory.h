@@ -11,7 +11,7 @@ namespace rnmbake {
 /// Bytes that all Blenders together may use: --memory-limit, else 70 % of what is free now.
 [[nodiscard]] std::int64_t memory_budget(const BakeSettings& settings);
 
-/// Pixels of one atlas of a dispatch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
+/// Pixels of one atlas of a batch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
 /// and less where one bake call would take more than several minutes.
 [[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
                                             const Batch& batch, int jobs);

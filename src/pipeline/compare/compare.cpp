@@ -239,25 +239,25 @@ std::string noise_of(bool known, bool halves) {
   return !known ? "not known, left in" : halves ? "from two bakes, taken out" : "standard errors, taken out";
 }
 
-void tell_of_side(const std::string& label, const LoadedLightmap& lightmap, Report& report) {
+void add_side(const std::string& label, const LoadedLightmap& lightmap, Report& report) {
   const LightmapMetadata& metadata = lightmap.metadata;
-  const auto tell = [&](const char* what, const std::string& value) {
+  const auto add = [&](const char* what, const std::string& value) {
     if (!value.empty()) report.settings.emplace_back(label + ": " + what, value);
   };
-  tell("recipe", metadata.recipe);
-  tell("model", metadata.model);
-  tell("faults", metadata.faults);
-  tell("samples", metadata.samples > 0 ? std::to_string(metadata.samples) : "");
-  tell("bounces", metadata.bounces < 0 ? "no limit" : std::to_string(metadata.bounces));
-  tell("seed", std::to_string(metadata.seed));
-  tell("footprint", metadata.footprint);
+  add("recipe", metadata.recipe);
+  add("model", metadata.model);
+  add("faults", metadata.faults);
+  add("samples", metadata.samples > 0 ? std::to_string(metadata.samples) : "");
+  add("bounces", metadata.bounces < 0 ? "no limit" : std::to_string(metadata.bounces));
+  add("seed", std::to_string(metadata.seed));
+  add("footprint", metadata.footprint);
   if (!metadata.blender_version.empty())
     report.versions.emplace_back(label + ": Blender", metadata.blender_version);
   if (!metadata.rnmbake_version.empty())
     report.versions.emplace_back(label + ": rnmbake", metadata.rnmbake_version);
 }
 
-void tell_of_noise(const CompareOptions& options, Report& report) {
+void add_noise(const CompareOptions& options, Report& report) {
   const PictureMetrics metrics = report.scene.empty() ? PictureMetrics{} : report.scene.front().metrics;
   report.settings.emplace_back(report.candidate_label + ": noise",
                                noise_of(metrics.candidate_noise_known, !options.candidate.second.empty()));
@@ -286,9 +286,9 @@ Report compare_lightmaps(const CompareOptions& options) {
     if (std::ranges::find(report.notes, note) == report.notes.end()) report.notes.push_back(note);
   }
   report.versions.emplace_back("rnmbake", version);
-  tell_of_side(report.candidate_label, load_lightmap(*pairs.front().first), report);
-  tell_of_side(report.reference_label, load_lightmap(*pairs.front().second), report);
-  tell_of_noise(options, report);
+  add_side(report.candidate_label, load_lightmap(*pairs.front().first), report);
+  add_side(report.reference_label, load_lightmap(*pairs.front().second), report);
+  add_noise(options, report);
   report.finding = finding_of(report);
   return report;
 }

@@ -1,6 +1,7 @@
 #include "pipeline/compare/compare_fit.h"
 
 #include "base/error.h"
+#include "encoding/encodings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,7 @@ void check_halves(const std::string& key, const LoadedLightmap& first, const Loa
 
 const FloatImage* basis_layer(const LoadedLightmap& lightmap, const std::string& basis,
                               const std::string& suffix) {
-  const Layer* layer = lightmap.image.find(suffix.empty() && basis == "flat" ? "" : basis + suffix);
+  const Layer* layer = lightmap.image.find(suffix.empty() ? exr_layer(basis) : basis + suffix);
   return layer == nullptr ? nullptr : &layer->pixels;
 }
 

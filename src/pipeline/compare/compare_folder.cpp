@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/read_file.h"
+#include "encoding/encodings.h"
 #include "image/channels.h"
 #include "pipeline/lightmaps/manifest_file.h"
 
@@ -84,7 +85,7 @@ void name_split_layer(LayeredImage& part) {
   const auto found = part.attributes.find(kLayer);
   const auto* name = found == part.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
   if (name == nullptr || part.layers.size() != 1) return;
-  part.layers.front().name = *name == "flat" ? "" : *name;
+  part.layers.front().name = exr_layer(*name);
 }
 
 /// Alpha, which some other program may have added, is no part of a lightmap.

@@ -9,12 +9,12 @@
 namespace rnmbake {
 
 BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
-                             std::vector<LightmapHeader> notes)
+                             std::vector<LightmapHeader> headers)
     : context_(context),
       output_(output),
-      notes_(std::move(notes)),
-      pending_(notes_.size()),
-      deliveries_(notes_.size()) {
+      headers_(std::move(headers)),
+      pending_(headers_.size()),
+      deliveries_(headers_.size()) {
   for (const BakeTask& task : context.plan.tasks) ++pending_[task.target].missing;
 }
 
@@ -55,7 +55,7 @@ bool BakeCollector::is_settled(std::size_t target) const {
 
 Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending) const {
   const Target& target = context_.targets[target_index];
-  const LightmapHeader& note = notes_[target_index];
+  const LightmapHeader& header = headers_[target_index];
   std::vector<const AtlasRect*> rects;
   std::vector<FloatImage> pictures;
   for (auto& [rect, picture] : pending.pictures) {
@@ -64,8 +64,8 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
   }
   try {
     const TargetBakes bakes =
-        assemble(target, rects, pictures, context_.bases, note.surface.get(), output_.frames);
-    return deliver_lightmap(bakes, note, output_);
+        assemble(target, rects, pictures, context_.bases, header.surface.get(), output_.frames);
+    return deliver_lightmap(bakes, header, output_);
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
     log::error("{}", error.what());

@@ -17,9 +17,10 @@ namespace rnmbake {
 /// Thread-safe. Writing errors (a full disk) are thrown: they concern every target that is left.
 class BakeCollector {
  public:
-  BakeCollector(const BakeContext& context, const OutputSettings& output, std::vector<LightmapHeader> notes);
+  BakeCollector(const BakeContext& context, const OutputSettings& output,
+                std::vector<LightmapHeader> headers);
 
-  /// Takes the tiles of a dispatch (in the layout's order); writes each target that became complete.
+  /// Takes the pictures of a batch (in the layout's order); writes each target that became complete.
   void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures);
 
   /// Gives a target up; what comes for it later is thrown away.
@@ -30,14 +31,14 @@ class BakeCollector {
 
  private:
   struct PendingTarget {
-    std::size_t missing = 0;                     // units
-    std::map<std::size_t, FloatImage> pictures;  // by tile
+    std::size_t missing = 0;                     // tasks
+    std::map<std::size_t, FloatImage> pictures;  // by atlas rectangle
   };
   [[nodiscard]] Delivery finish(std::size_t target, PendingTarget&& pending) const;
 
   BakeContext context_;
   OutputSettings output_;
-  std::vector<LightmapHeader> notes_;
+  std::vector<LightmapHeader> headers_;
   mutable std::mutex mutex_;
   std::vector<PendingTarget> pending_;
   std::vector<Delivery> deliveries_;

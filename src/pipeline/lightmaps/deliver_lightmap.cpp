@@ -17,11 +17,11 @@ Depth depth_of(const OutputSettings& output) {
   return output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
 }
 
-MergeOptions merge_options(const OutputSettings& output, const LightmapHeader& note) {
+MergeOptions merge_options(const OutputSettings& output, const LightmapHeader& header) {
   MergeOptions options;
   options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
   options.depth = depth_of(output);
-  options.dilate = note.dilate;
+  options.dilate = header.dilate;
   options.repair = output.repair;
   return options;
 }
@@ -90,18 +90,18 @@ void prepare_output(const OutputSettings& output) {
   AtomicFile(output.dir / "manifest.json").write(std::string(1 << 16, ' '));  // never committed
 }
 
-Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& note, const OutputSettings& output,
-                           ExtraLayers extra) {
-  const MergeOptions options = merge_options(output, note);
+Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& header,
+                           const OutputSettings& output, ExtraLayers extra) {
+  const MergeOptions options = merge_options(output, header);
   MergedLightmap merged = merge(bakes, options);
-  refuse_if_nothing_is_a_number(note.metadata.object, merged.counts);
+  refuse_if_nothing_is_a_number(header.metadata.object, merged.counts);
   add_extra_layers(std::move(extra), options, merged.image);
-  warn_about(note.metadata.object, merged.counts, output.repair);
-  LightmapMetadata metadata = note.metadata;
+  warn_about(header.metadata.object, merged.counts, output.repair);
+  LightmapMetadata metadata = header.metadata;
   for (const BasisBake& basis : bakes.bases) metadata.bases.push_back({basis.name, basis.direction});
   metadata.repaired = merged.counts.repaired > 0;
   write_metadata(metadata, merged.image);
-  return Delivered{write(output, note.stem, std::move(merged.image)), merged.counts};
+  return Delivered{write(output, header.stem, std::move(merged.image)), merged.counts};
 }
 
 }  // namespace rnmbake

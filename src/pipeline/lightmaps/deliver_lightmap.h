@@ -35,7 +35,7 @@ using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
 /// One line for all lightmaps in which no texel got any light.
 void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries);
 
-/// What is known of a target besides its geometry.
+/// What a lightmap's files say of their target, and how they are filled.
 struct LightmapHeader {
   std::string stem;           // of its file names
   LightmapMetadata metadata;  // for the headers
@@ -47,9 +47,9 @@ struct LightmapHeader {
 /// where none is set, Error(io).
 void prepare_output(const OutputSettings& output);
 
-/// Merges, writes the header and the files; warns of what had to be mended. `note.metadata` lacks only its
+/// Merges, writes the header and the files; warns of what had to be mended. `header.metadata` lacks only its
 /// bases. Throws Error(io), and Error(tasks_failed) where no texel holds a number.
-[[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& note,
+[[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& header,
                                          const OutputSettings& output, ExtraLayers extra = {});
 
 }  // namespace rnmbake

@@ -64,12 +64,12 @@ std::string names_in(const json& bases) {
 
 class Search {
  public:
-  Search(Workspace& workspace, const RunKind& run, const SceneSurvey& survey,
+  Search(BlenderSession& session, const RunKind& run, const SceneSurvey& survey,
          const std::vector<Target>& targets)
-      : workspace_(workspace),
+      : session_(session),
         run_(run),
         survey_(survey),
-        file_(workspace.settings().output.dir / "manifest.json") {
+        file_(session.settings().output.dir / "manifest.json") {
     for (const Target& target : targets) {
       keys_.insert(target.key);
       objects_.insert(survey.objects[target.object].key);
@@ -154,10 +154,10 @@ class Search {
            numbers ? names_in(there) : brief(there), numbers ? names_in(now) : brief(now));
     };
     differ("schema_version", manifest_.at("schema_version"), manifest_schema_version);
-    differ("scene", manifest_.at("scene"), workspace_.settings().scene.file.filename().string());
+    differ("scene", manifest_.at("scene"), session_.settings().scene.file.filename().string());
     differ("kind", manifest_.at("kind"), run_.kind);
     differ("normalisation", manifest_.at("conventions").at("normalize"),
-           name_of(normalize_of(workspace_.settings().output)));
+           name_of(normalize_of(session_.settings().output)));
     differ("list of bases", manifest_.at("bases"), to_json(run_.bases));
   }
 
@@ -191,7 +191,7 @@ class Search {
   const SceneSurvey& saved_survey(const std::string& name) {
     if (!saved_) {
       log::info("reading the UVs of earlier lightmaps from {}", beside(name).string());
-      saved_ = survey_file(workspace_, beside(name));
+      saved_ = survey_file(session_, beside(name));
     }
     return *saved_;
   }
@@ -203,7 +203,7 @@ class Search {
     return known;
   }
 
-  Workspace& workspace_;
+  BlenderSession& session_;
   const RunKind& run_;
   const SceneSurvey& survey_;
   fs::path file_;
@@ -237,9 +237,9 @@ std::vector<SavedUvs> EarlierLightmaps::add_to(std::vector<SavedUvs> of_targets)
   return of_targets;
 }
 
-EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run, const SceneSurvey& survey,
+EarlierLightmaps find_earlier(BlenderSession& session, const RunKind& run, const SceneSurvey& survey,
                               const std::vector<Target>& targets) {
-  return Search(workspace, run, survey, targets).find();
+  return Search(session, run, survey, targets).find();
 }
 
 }  // namespace rnmbake

@@ -42,7 +42,7 @@ struct RunKind {
 /// Reads the output folder's manifest, and where something was unwrapped then the scene that was saved (one
 /// launch). Whatever no longer fits the scene is left out, with a warning. Throws Error(usage) where
 /// lightmaps of both runs cannot stand in one manifest: other bases, another scene.
-[[nodiscard]] EarlierLightmaps find_earlier(Workspace& workspace, const RunKind& run,
+[[nodiscard]] EarlierLightmaps find_earlier(BlenderSession& session, const RunKind& run,
                                             const SceneSurvey& survey, const std::vector<Target>& targets);
 
 }  // namespace rnmbake

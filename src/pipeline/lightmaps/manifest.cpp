@@ -49,7 +49,7 @@ json to_json(const BakeTimings& timings) {
 }
 
 void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size_t index, json& entry) {
-  const LightmapMetadata& metadata = input.notes[index].metadata;
+  const LightmapMetadata& metadata = input.headers[index].metadata;
   entry["horizon"] = to_json(bake.horizons[index], metadata.horizon);
   entry["receiver_height"] = bake.heights[index];
 }
@@ -75,7 +75,7 @@ int index_in_source(const Target& target, const Mesh& mesh) {
 json describe_object(const ManifestInput& input, std::size_t index) {
   const Target& target = input.list.targets[index];
   const SceneObject& object = input.survey.objects[target.object];
-  const LightmapMetadata& metadata = input.notes[index].metadata;
+  const LightmapMetadata& metadata = input.headers[index].metadata;
   json entry{{"key", target.key},
              {"object", object.name},
              {"part", target.part.name},
@@ -176,7 +176,7 @@ std::string saved_file(const ManifestInput& input) {
 }  // namespace
 
 nlohmann::json make_manifest(const ManifestInput& input) {
-  const LightmapMetadata common = input.notes.empty() ? LightmapMetadata{} : input.notes.front().metadata;
+  const LightmapMetadata common = input.headers.empty() ? LightmapMetadata{} : input.headers.front().metadata;
   json manifest{{"schema_version", manifest_schema_version},
                 {"rnmbake", common.rnmbake_version},
                 {"blender", input.survey.blender_version},

@@ -46,8 +46,8 @@ struct ManifestInput {
   const SceneSurvey& survey;
   const TargetList& list;
   const std::vector<BasisDirection>& bases;
-  const std::vector<LightmapHeader>& notes;  // [targets]
-  const std::vector<Delivery>& deliveries;   // [targets]
+  const std::vector<LightmapHeader>& headers;  // [targets]
+  const std::vector<Delivery>& deliveries;     // [targets]
   const SavedScene& saved;
   const EarlierLightmaps& earlier;
   std::variant<BakeRecord, ReferenceRecord> record;

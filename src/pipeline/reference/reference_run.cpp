@@ -7,6 +7,8 @@
 #include "base/names.h"
 #include "base/progress.h"
 #include "blender/blender_session.h"
+#include "config/recipe_names.h"
+#include "encoding/flip_green.h"
 #include "pipeline/lightmaps/manifest.h"
 #include "pipeline/lightmaps/target_facts.h"
 #include "process/stop.h"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -33,9 +36,9 @@ struct Kind {
   }
 };
 
-/// Turns the y axis round: harmonics with m < 0 are odd in y.
-void flip_y(std::vector<FloatImage>& sh) {
-  for (const std::size_t odd : {1, 4, 5}) {  // (1,-1), (2,-2), (2,-1)
+/// The same harmonics in a tangent space whose y axis is turned round.
+void flip_harmonics(std::vector<FloatImage>& sh) {
+  for (const std::size_t odd : sh_odd_in_y) {
     if (odd >= sh.size()) return;
     for (float& value : sh[odd].data()) value = -value;
   }
@@ -54,162 +57,182 @@ double relative_error(const Gathered& gathered) {
   return worst;
 }
 
-class ReferenceRun {
- public:
-  ReferenceRun(const ReferenceSubject& subject, const BakeSettings& settings, const ReferencePlan& plan,
-               const std::string& title)
-      : subject_(subject),
-        settings_(settings),
-        plan_(plan),
-        list_(subject.list),
-        record_{plan.flat_normal_map ? "flat-normal-map" : "true", names_of(plan.faults), plan.error,
-                std::vector<ReferenceRecord::Traced>(subject.list.targets.size()),
-                subject.scene.diffuse_scene().outside},
-        progress_(title, progress_for(log::is_quiet(), log::is_jsonl())) {
-    outcome_.deliveries.resize(list_.targets.size());
-  }
+/// What every step reads.
+struct ReferenceInput {
+  const ReferenceSubject& subject;
+  const BakeSettings& settings;
+  const ReferencePlan& plan;
 
-  ReferenceOutcome run(const SavedScene& saved) {
-    const double started = steady_clock().now();
-    std::map<Kind, std::vector<std::size_t>> groups;
-    FileStems stems(subject_.earlier.stems());
-    LostDirections lost;
-    for (std::size_t i = 0; i < list_.targets.size(); ++i) {
-      const Target& target = list_.targets[i];
-      auto surface =
-          std::make_shared<const Surface>(surface_of(survey(), target, lost, subject_.scene.origin()));
-      notes_.push_back({stems.take(target.key), metadata(i), list_.settings[i].dilate, std::move(surface)});
-      const Kind kind{target.flip_green, samples(i), list_.settings[i].seed};
-      groups[kind].push_back(i);
-      total_ += work(i);
-    }
-    lost.warn();
-    for (const auto& [kind, targets] : groups) trace(kind, targets);
-    if (may_be_lit(survey())) warn_of_black(list_.targets, outcome_.deliveries);
-    record_.wall_seconds = outcome_.wall_seconds = steady_clock().now() - started;
-    write_manifest({settings_, survey(), list_, subject_.bases, notes_, outcome_.deliveries, saved,
-                    subject_.earlier, record_});
-    return std::move(outcome_);
-  }
-
- private:
-  [[nodiscard]] const SceneSurvey& survey() const { return subject_.scene.diffuse_scene().survey; }
+  [[nodiscard]] const std::vector<Target>& targets() const { return subject.list.targets; }
+  [[nodiscard]] const DiffuseScene& scene() const { return subject.scene.diffuse_scene(); }
   [[nodiscard]] int samples(std::size_t target) const {
-    return plan_.most_samples > 0 ? plan_.most_samples : list_.settings[target].samples;
+    return plan.most_samples > 0 ? plan.most_samples : subject.list.settings[target].samples;
   }
   /// What the time of a target is about proportional to.
   [[nodiscard]] double work(std::size_t target) const {
-    const Target& it = list_.targets[target];
-    return double(it.width) * it.height * samples(target);
+    return double(targets()[target].width) * targets()[target].height * samples(target);
   }
-
-  [[nodiscard]] LightmapMetadata metadata(std::size_t i) const {
-    LightmapMetadata metadata = target_metadata(list_.targets[i], list_.settings[i], settings_.output);
-    metadata.recipe = "reference";
-    metadata.horizon = plan_.flat_normal_map ? "Blender's" : "exact";
-    metadata.footprint = name_of(plan_.footprint);
-    metadata.samples = samples(i);
-    metadata.bounces = plan_.bounces;
-    metadata.blender_version = plan_.blender_version;
-    metadata.model = record_.model;
-    metadata.faults = record_.faults.empty() ? "none" : fmt::format("{}", fmt::join(record_.faults, ","));
-    metadata.error = static_cast<float>(plan_.error);
-    return metadata;
-  }
-
-  [[nodiscard]] GatherOptions options_for(const Kind& kind) const {
-    GatherOptions options;
-    options.directions = subject_.bases;
-    if (kind.flip_green) {
-      for (BasisDirection& basis : options.directions) basis.direction.y = -basis.direction.y;
-    }
-    options.sh_order = plan_.sh;
-    options.footprint = plan_.footprint;
-    options.past_edge = plan_.past_edge;
-    options.samples = kind.samples;
-    options.error = plan_.error;
-    options.bounces = plan_.bounces;
-    options.seed = static_cast<std::uint64_t>(kind.seed);
-    options.threads = plan_.threads;
-    options.faults = plan_.faults;
-    options.blender_version = plan_.blender_version;
-    return options;
-  }
-
-  void trace(const Kind& kind, const std::vector<std::size_t>& targets) {
-    std::vector<GatherTarget> wanted;
-    double group = 0;
-    for (const std::size_t i : targets) {
-      const Target& target = list_.targets[i];
-      wanted.push_back({notes_[i].surface.get(), target.object, target.width, target.height});
-      group += work(i);
-    }
-    gather(
-        subject_.scene, wanted, options_for(kind),
-        [&](std::size_t index, Gathered&& gathered) { deliver(targets[index], std::move(gathered)); },
-        [&](const GatherProgress& now) {
-          progress_.update((done_ + now.share * group) / total_, list_.targets[targets[now.target]].key);
-        },
-        [] { return StopRequest::requested(); });
-    if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
-    done_ += group;
-  }
-
-  void deliver(std::size_t i, Gathered&& gathered) {
-    record_.traced[i] = {gathered.paths, gathered.rays, relative_error(gathered)};
-    outcome_.rays += gathered.rays;
-    outcome_.deliveries[i] = finish(i, std::move(gathered));
-    notes_[i].surface.reset();
-  }
-
-  Delivery finish(std::size_t i, Gathered&& gathered) const {
-    const LightmapHeader& note = notes_[i];
-    // Paths do not tell: where the recipe bakes black none are traced.
-    if (std::ranges::none_of(gathered.coverage.data(), [](float share) { return share > 0; })) {
-      const std::string reason = fmt::format(
-          "no texel's centre lies in a face of '{}': are its faces smaller than a texel? Raise --resolution "
-          "or --texels-per-unit",
-          note.metadata.object);
-      log::error("{}", reason);
-      return NotDelivered{reason};
-    }
-    TargetBakes bakes;
-    ExtraLayers extra;
-    for (std::size_t k = 0; k < gathered.directions.size(); ++k) {
-      const BasisDirection& basis = subject_.bases[k];
-      bakes.bases.push_back({basis.name, basis.direction, std::move(gathered.directions[k].radiance)});
-      extra.standard_errors.push_back({basis.name, std::move(gathered.directions[k].standard_error)});
-    }
-    bakes.coverage = std::move(gathered.coverage);
-    if (settings_.output.frames) fill_frames(*note.surface, bakes);
-    extra.validity = std::move(gathered.validity);
-    extra.sh = std::move(gathered.sh);
-    if (list_.targets[i].flip_green) flip_y(extra.sh);
-    try {
-      return deliver_lightmap(bakes, note, settings_.output, std::move(extra));
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::tasks_failed) throw;
-      log::error("{}", error.what());
-      return NotDelivered{error.what()};
-    }
-  }
-
-  const ReferenceSubject& subject_;
-  const BakeSettings& settings_;
-  const ReferencePlan& plan_;
-  const TargetList& list_;
-  std::vector<LightmapHeader> notes_;
-  ReferenceRecord record_;
-  ReferenceOutcome outcome_;
-  double total_ = 0, done_ = 0;
-  Progress progress_;
 };
+
+/// What the targets become, one after the other.
+struct ReferenceResult {
+  std::vector<LightmapHeader> headers;  // [targets]
+  ReferenceRecord record;
+  ReferenceOutcome outcome;
+};
+
+ReferenceRecord new_record(const ReferenceInput& input) {
+  using Model = ReferenceSettings::Model;
+  return {name_of(input.plan.flat_normal_map ? Model::flat_normal_map : Model::truth),
+          names_of(input.plan.faults), input.plan.error,
+          std::vector<ReferenceRecord::Traced>(input.targets().size()), input.scene().outside};
+}
+
+LightmapMetadata metadata_of(const ReferenceInput& input, const ReferenceRecord& record, std::size_t i) {
+  const ReferencePlan& plan = input.plan;
+  LightmapMetadata metadata =
+      target_metadata(input.targets()[i], input.subject.list.settings[i], input.settings.output);
+  metadata.recipe = "reference";
+  metadata.horizon = plan.flat_normal_map ? "Blender's" : "exact";
+  metadata.footprint = name_of(plan.footprint);
+  metadata.samples = input.samples(i);
+  metadata.bounces = plan.bounces;
+  metadata.blender_version = plan.blender_version;
+  metadata.model = record.model;
+  metadata.faults = record.faults.empty() ? "none" : fmt::format("{}", fmt::join(record.faults, ","));
+  metadata.error = static_cast<float>(plan.error);
+  return metadata;
+}
+
+std::vector<LightmapHeader> headers_of(const ReferenceInput& input, const ReferenceRecord& record) {
+  std::vector<LightmapHeader> headers;
+  FileStems stems(input.subject.earlier.stems());
+  LostDirections lost;
+  for (std::size_t i = 0; i < input.targets().size(); ++i) {
+    const Target& target = input.targets()[i];
+    auto surface = std::make_shared<const Surface>(
+        surface_of(input.scene().survey, target, lost, input.subject.scene.origin()));
+    headers.push_back({stems.take(target.key), metadata_of(input, record, i),
+                       input.subject.list.settings[i].dilate, std::move(surface)});
+  }
+  lost.warn();
+  return headers;
+}
+
+GatherOptions options_for(const ReferenceInput& input, const Kind& kind) {
+  const ReferencePlan& plan = input.plan;
+  GatherOptions options;
+  options.directions = input.subject.bases;
+  if (kind.flip_green) {
+    for (BasisDirection& basis : options.directions) basis.direction = flip_green(basis.direction);
+  }
+  options.sh_order = plan.sh;
+  options.footprint = plan.footprint;
+  options.past_edge = plan.past_edge;
+  options.samples = kind.samples;
+  options.error = plan.error;
+  options.bounces = plan.bounces;
+  options.seed = static_cast<std::uint64_t>(kind.seed);
+  options.threads = plan.threads;
+  options.faults = plan.faults;
+  options.blender_version = plan.blender_version;
+  return options;
+}
+
+/// One target's pictures as its files; why there are none is logged.
+Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bool y_down,
+                   Gathered&& gathered) {
+  // The number of paths cannot decide this: where the recipe bakes black none are traced.
+  if (std::ranges::none_of(gathered.coverage.data(), [](float share) { return share > 0; })) {
+    const std::string reason = fmt::format(
+        "no texel's centre lies in a face of '{}': are its faces smaller than a texel? Raise --resolution "
+        "or --texels-per-unit",
+        header.metadata.object);
+    log::error("{}", reason);
+    return NotDelivered{reason};
+  }
+  TargetBakes bakes;
+  ExtraLayers extra;
+  for (std::size_t k = 0; k < gathered.directions.size(); ++k) {
+    const BasisDirection& basis = input.subject.bases[k];
+    bakes.bases.push_back({basis.name, basis.direction, std::move(gathered.directions[k].radiance)});
+    extra.standard_errors.push_back({basis.name, std::move(gathered.directions[k].standard_error)});
+  }
+  bakes.coverage = std::move(gathered.coverage);
+  if (input.settings.output.frames) fill_frames(*header.surface, bakes);
+  extra.validity = std::move(gathered.validity);
+  extra.sh = std::move(gathered.sh);
+  if (y_down) flip_harmonics(extra.sh);
+  try {
+    return deliver_lightmap(bakes, header, input.settings.output, std::move(extra));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::tasks_failed) throw;
+    log::error("{}", error.what());
+    return NotDelivered{error.what()};
+  }
+}
+
+/// Traces the targets of one kind and writes each as soon as it is complete. `show` gets the share of all
+/// work of this call that is done, and the target at work.
+void trace(const ReferenceInput& input, const Kind& kind, const std::vector<std::size_t>& targets,
+           const std::function<void(double, const Target&)>& show, ReferenceResult& result) {
+  std::vector<GatherTarget> wanted;
+  for (const std::size_t i : targets) {
+    const Target& target = input.targets()[i];
+    wanted.push_back({result.headers[i].surface.get(), target.object, target.width, target.height});
+  }
+  const auto take = [&](std::size_t index, Gathered&& gathered) {
+    const std::size_t i = targets[index];
+    result.record.traced[i] = {gathered.paths, gathered.rays, relative_error(gathered)};
+    result.outcome.rays += gathered.rays;
+    result.outcome.deliveries[i] = delivered(input, result.headers[i], kind.flip_green, std::move(gathered));
+    result.headers[i].surface.reset();
+  };
+  gather(
+      input.subject.scene, wanted, options_for(input, kind), take,
+      [&](const GatherProgress& now) { show(now.share, input.targets()[targets[now.target]]); },
+      [] { return StopRequest::requested(); });
+  if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
+}
+
+/// Traces kind after kind.
+void trace_all(const ReferenceInput& input, const std::string& title, ReferenceResult& result) {
+  std::map<Kind, std::vector<std::size_t>> groups;
+  double total = 0, done = 0;
+  for (std::size_t i = 0; i < input.targets().size(); ++i) {
+    const Target& target = input.targets()[i];
+    const Kind kind{target.flip_green, input.samples(i), input.subject.list.settings[i].seed};
+    groups[kind].push_back(i);
+    total += input.work(i);
+  }
+  Progress progress(title, progress_for(log::is_quiet(), log::is_jsonl()));
+  for (const auto& [kind, targets] : groups) {
+    double group = 0;
+    for (const std::size_t i : targets) group += input.work(i);
+    const auto show = [&](double share, const Target& target) {
+      progress.update((done + share * group) / total, target.key);
+    };
+    trace(input, kind, targets, show, result);
+    done += group;
+  }
+}
 
 }  // namespace
 
 ReferenceOutcome run_reference(const ReferenceSubject& subject, const BakeSettings& settings,
                                const ReferencePlan& plan, const std::string& title, const SavedScene& saved) {
-  return ReferenceRun(subject, settings, plan, title).run(saved);
+  const double started = steady_clock().now();
+  const ReferenceInput input{subject, settings, plan};
+  ReferenceResult result{{}, new_record(input), {}};
+  result.headers = headers_of(input, result.record);
+  result.outcome.deliveries.resize(subject.list.targets.size());
+  trace_all(input, title, result);
+  const SceneSurvey& survey = input.scene().survey;
+  if (may_be_lit(survey)) warn_of_black(subject.list.targets, result.outcome.deliveries);
+  result.record.wall_seconds = result.outcome.wall_seconds = steady_clock().now() - started;
+  write_manifest({settings, survey, subject.list, subject.bases, result.headers, result.outcome.deliveries,
+                  saved, subject.earlier, result.record});
+  return std::move(result.outcome);
 }
 
 }  // namespace rnmbake

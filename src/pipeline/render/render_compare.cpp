@@ -42,9 +42,9 @@ struct Halves {
 
 class ViewRun {
  public:
-  ViewRun(Workspace& workspace, const ExportResult& exported, const TraceScene& scene,
+  ViewRun(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
           const SceneLightmaps& lightmaps, const ViewCompareOptions& options)
-      : workspace_(workspace),
+      : session_(session),
         exported_(exported),
         scene_(scene),
         lightmaps_(lightmaps),
@@ -88,12 +88,12 @@ class ViewRun {
 
   [[nodiscard]] Halves cycles() const {
     const ViewOptions& view = options_.render.view;
-    const int seed = workspace_.settings().object.seed;
-    std::vector<FloatImage> pictures = render_cycles(workspace_, exported_,
+    const int seed = session_.settings().object.seed;
+    std::vector<FloatImage> pictures = render_cycles(session_, exported_,
                                                      {view.width,
                                                       view.height,
                                                       half_,
-                                                      workspace_.settings().bake.bounces,
+                                                      session_.settings().bake.bounces,
                                                       {seed, seed + 1},
                                                       options_.own_materials});
     return {std::move(pictures[0]), std::move(pictures[1])};
@@ -112,7 +112,7 @@ class ViewRun {
     return picture;
   }
 
-  Workspace& workspace_;
+  BlenderSession& session_;
   const ExportResult& exported_;
   const TraceScene& scene_;
   const SceneLightmaps& lightmaps_;
@@ -134,9 +134,9 @@ RenderOptions render_options(const Camera& camera, int longest) {
   return options;
 }
 
-ViewComparison compare_view(Workspace& workspace, const ExportResult& exported, const TraceScene& scene,
+ViewComparison compare_view(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
                             const SceneLightmaps& lightmaps, const ViewCompareOptions& options) {
-  return ViewRun(workspace, exported, scene, lightmaps, options).run();
+  return ViewRun(session, exported, scene, lightmaps, options).run();
 }
 
 std::string finding_of(const ViewComparison& view) {

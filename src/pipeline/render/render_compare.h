@@ -24,7 +24,7 @@ struct ViewCompareOptions {
 /// the lightmaps allow; why one is missing is logged. Truth and Cycles are rendered in two independent
 /// halves, so that errors are free of their noise; they are over the pixels that show surfaces. Throws as
 /// render_view() and render_cycles().
-[[nodiscard]] ViewComparison compare_view(Workspace& workspace, const ExportResult& exported,
+[[nodiscard]] ViewComparison compare_view(BlenderSession& session, const ExportResult& exported,
                                           const TraceScene& scene, const SceneLightmaps& lightmaps,
                                           const ViewCompareOptions& options);
 

@@ -49,16 +49,16 @@ FloatImage read_picture(const fs::path& file, const CyclesOptions& options) {
 
 }  // namespace
 
-std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportResult& exported,
+std::vector<FloatImage> render_cycles(BlenderSession& session, const ExportResult& exported,
                                       const CyclesOptions& options) {
-  const BakeSettings& settings = workspace.settings();
+  const BakeSettings& settings = session.settings();
   const Camera& camera = camera_of(exported.diffuse_scene);
   if (!exported.blends) {
     fail(ExitCode::usage, "{}: Cycles needs the Blender scene that this was exported from; give that .blend",
          settings.scene.file.string());
   }
   const BlendPath& scene = options.own_materials ? exported.blends->own : exported.blends->shown;
-  Launch launch = launch_on(workspace, "render_entry.py", "render", scene);
+  Launch launch = launch_on(session, "render_entry.py", "render", scene);
   launch.request["camera"] = to_json(camera);
   launch.request["pixel_shape"] = pixel_shape(camera);
   launch.request["width"] = options.width;
@@ -72,7 +72,7 @@ std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportResult& 
                               {"device", device_of(settings)}};
   const fs::path folder = launch.folder;
   log::info("Cycles renders {} x {} pixels", options.width, options.height);
-  const json answer = workspace.run(std::move(launch));
+  const json answer = session.run(std::move(launch));
   std::vector<FloatImage> pictures;
   for (const json& name : answer.at("pictures"))
     pictures.push_back(read_picture(answered_file(name, folder), options));

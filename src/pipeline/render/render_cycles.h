@@ -18,8 +18,8 @@ struct CyclesOptions {
 };
 
 /// Linear RGB for each seed, in one launch: unfiltered, not denoised, the world behind; no depth of field, no
-/// motion blur. Throws Error(usage) where the scene is a .rnmscene, and as Workspace::run().
-[[nodiscard]] std::vector<FloatImage> render_cycles(Workspace& workspace, const ExportResult& exported,
+/// motion blur. Throws Error(usage) where the scene is a .rnmscene, and as BlenderSession::run().
+[[nodiscard]] std::vector<FloatImage> render_cycles(BlenderSession& session, const ExportResult& exported,
                                                     const CyclesOptions& options);
 
 }  // namespace rnmbake

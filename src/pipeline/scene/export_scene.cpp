@@ -14,9 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The launch that writes down what a tracer needs of a lambert scene.
-DiffuseScene launch_export(Workspace& workspace, const BlendPath& lambert) {
-  const Launch launch = launch_on(workspace, "export_entry.py", "export", lambert);
-  const nlohmann::json answer = workspace.run(launch);
+DiffuseScene launch_export(BlenderSession& session, const BlendPath& lambert) {
+  const Launch launch = launch_on(session, "export_entry.py", "export", lambert);
+  const nlohmann::json answer = session.run(launch);
   return read_exported(answered_file(answer, "survey", launch.folder));
 }
 
@@ -55,23 +55,23 @@ void keep_unwrapped(SceneSurvey& survey, const std::vector<Target>& targets) {
 
 }  // namespace
 
-bool is_exchange(const fs::path& file) {
+bool is_rnmscene(const fs::path& file) {
   return file.extension() == diffuse_scene_ending;
 }
 
-ExportResult export_scene(Workspace& workspace) {
-  const fs::path file = workspace.settings().scene.file;
+ExportResult export_scene(BlenderSession& session) {
+  const fs::path file = session.settings().scene.file;
   ExportResult result;
   std::vector<std::string> logged;
-  if (is_exchange(file)) {
+  if (is_rnmscene(file)) {
     result.diffuse_scene = read_diffuse_scene(file);
   } else {
-    const BlendPath own = import_scene(workspace, file);
-    LambertScene lambert = make_lambert_scene(workspace, own);
+    const BlendPath own = import_scene(session, file);
+    LambertScene lambert = make_lambert_scene(session, own);
     logged = std::move(lambert.warnings);
     result.blends = SceneBlends{lambert.blend, own};
     log::info("writing down the scene for the tracer");
-    result.diffuse_scene = launch_export(workspace, lambert.blend);
+    result.diffuse_scene = launch_export(session, lambert.blend);
     result.diffuse_scene.survey.scene_file = file.string();
   }
   log_warnings(result.diffuse_scene.survey, logged);
@@ -80,7 +80,7 @@ ExportResult export_scene(Workspace& workspace) {
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
          file.string());
   }
-  result.list = make_targets(workspace.config(), result.diffuse_scene.survey);
+  result.list = make_targets(session.config(), result.diffuse_scene.survey);
   keep_unwrapped(result.diffuse_scene.survey, result.list.targets);
   return result;
 }

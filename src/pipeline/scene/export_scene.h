@@ -14,7 +14,7 @@ namespace rnmbake {
 
 struct ExportResult {
   DiffuseScene diffuse_scene;
-  TargetList list;                    // of exchange.survey's objects
+  TargetList list;                    // of the survey's objects
   std::optional<SceneBlends> blends;  // none where the scene was a .rnmscene already
 };
 
@@ -22,9 +22,9 @@ struct ExportResult {
 /// be unwrapped: meshes then have their UVs as layer "Lightmap". The materials are the lambert ones whatever
 /// the settings say. A scene file that is a .rnmscene already is read instead. Throws like survey_scene(),
 /// make_targets() and read_diffuse_scene().
-[[nodiscard]] ExportResult export_scene(Workspace& workspace);
+[[nodiscard]] ExportResult export_scene(BlenderSession& session);
 
 /// Whether the scene of the settings is a .rnmscene file.
-[[nodiscard]] bool is_exchange(const std::filesystem::path& file);
+[[nodiscard]] bool is_rnmscene(const std::filesystem::path& file);
 
 }  // namespace rnmbake

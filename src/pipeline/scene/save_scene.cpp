@@ -84,11 +84,11 @@ std::vector<SavedUvs> uvs_of(const std::vector<Target>& targets) {
   return objects;
 }
 
-SavedScene save_scene_with_uvs(Workspace& workspace, const SceneSurvey& survey, const BlendPath& own,
+SavedScene save_scene_with_uvs(BlenderSession& session, const SceneSurvey& survey, const BlendPath& own,
                                const std::vector<SavedUvs>& objects) {
-  const BakeSettings& settings = workspace.settings();
+  const BakeSettings& settings = session.settings();
   if (!wanted(settings.output.save_scene, objects)) return {};
-  Launch launch = launch_on(workspace, "save_uvs_entry.py", "save-uvs", own);
+  Launch launch = launch_on(session, "save_uvs_entry.py", "save-uvs", own);
   launch.request["imported"] = !is_blend(settings.scene.file);
   ObjectList list(survey, launch.folder);
   for (const SavedUvs& one : objects) list.add(one);
@@ -98,7 +98,7 @@ SavedScene save_scene_with_uvs(Workspace& workspace, const SceneSurvey& survey, 
   SavedScene saved;
   write_atomically(fs::absolute(settings.output.dir) / name, [&](const fs::path& temporary) {
     launch.request["save_as"] = temporary.string();
-    saved = read_answer(workspace.run(std::move(launch)), survey, objects);
+    saved = read_answer(session.run(std::move(launch)), survey, objects);
   });
   saved.file = name;
   return saved;

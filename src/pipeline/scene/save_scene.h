@@ -36,8 +36,8 @@ struct SavedUvs {
 
 /// Writes DIR/<scene>.lightmap-uvs.blend, whole or not at all, if the settings want it (when_unwrapped: only
 /// if something was): the lightmap is every object's second UV layer, relative paths lead where they did.
-/// Throws as Workspace::run() and Error(io).
-[[nodiscard]] SavedScene save_scene_with_uvs(Workspace& workspace, const SceneSurvey& survey,
+/// Throws as BlenderSession::run() and Error(io).
+[[nodiscard]] SavedScene save_scene_with_uvs(BlenderSession& session, const SceneSurvey& survey,
                                              const BlendPath& own, const std::vector<SavedUvs>& objects);
 
 }  // namespace rnmbake

@@ -16,50 +16,49 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Once it has opened: what Blender does not know it leaves out without a word.
-void warn_of_newer(const Workspace& workspace, const BlendPath& scene) {
+void warn_of_newer(const BlenderSession& session, const BlendPath& scene) {
   const std::string newer =
-      newer_blend(scene.path(), workspace.blender().info(), "which leaves out what it does not know");
+      newer_blend(scene.path(), session.blender().info(), "which leaves out what it does not know");
   if (!newer.empty()) log::warn("{}", newer);
 }
 
-SceneSurvey survey_blend(Workspace& workspace, const BlendPath& blend) {
-  const Launch launch = launch_on(workspace, "survey_entry.py", "survey", blend);
-  const nlohmann::json answer = workspace.run(launch);
-  warn_of_newer(workspace, blend);
+SceneSurvey survey_blend(BlenderSession& session, const BlendPath& blend) {
+  const Launch launch = launch_on(session, "survey_entry.py", "survey", blend);
+  const nlohmann::json answer = session.run(launch);
+  warn_of_newer(session, blend);
   return read_survey(answered_file(answer, "survey", launch.folder));
 }
 
 }  // namespace
 
-nlohmann::json scene_request(const Workspace& workspace, const fs::path& scene) {
-  return {{"scene", fs::absolute(scene).string()},
-          {"allow_scripts", workspace.settings().scene.allow_scripts}};
+nlohmann::json scene_request(const BlenderSession& session, const fs::path& scene) {
+  return {{"scene", fs::absolute(scene).string()}, {"allow_scripts", session.settings().scene.allow_scripts}};
 }
 
-Launch launch_on(Workspace& workspace, const char* entry, const char* purpose, const BlendPath& scene) {
+Launch launch_on(BlenderSession& session, const char* entry, const char* purpose, const BlendPath& scene) {
   Launch launch;
   launch.entry = entry;
   launch.scene = scene;
-  launch.request = scene_request(workspace, scene.path());
-  launch.folder = workspace.new_folder(purpose);
+  launch.request = scene_request(session, scene.path());
+  launch.folder = session.new_folder(purpose);
   return launch;
 }
 
-BlendPath import_scene(Workspace& workspace, const fs::path& file) {
+BlendPath import_scene(BlenderSession& session, const fs::path& file) {
   if (is_blend(file)) return BlendPath(file);
   Launch launch;
   launch.entry = "import_entry.py";
-  launch.request = scene_request(workspace, file);
-  launch.folder = workspace.new_folder("import");
-  const nlohmann::json answer = workspace.run(launch);
+  launch.request = scene_request(session, file);
+  launch.folder = session.new_folder("import");
+  const nlohmann::json answer = session.run(launch);
   return BlendPath(answered_file(answer, "blend", launch.folder));
 }
 
-LambertScene make_lambert_scene(Workspace& workspace, const BlendPath& own) {
+LambertScene make_lambert_scene(BlenderSession& session, const BlendPath& own) {
   log::info("baking albedo and emission of every material");
-  const Launch launch = launch_on(workspace, "lambert_entry.py", "lambert", own);
-  const nlohmann::json answer = workspace.run(launch);
-  warn_of_newer(workspace, own);
+  const Launch launch = launch_on(session, "lambert_entry.py", "lambert", own);
+  const nlohmann::json answer = session.run(launch);
+  warn_of_newer(session, own);
   LambertScene result{BlendPath(answered_file(answer, "blend", launch.folder)),
                       answer.at("warnings").get<std::vector<std::string>>()};
   warn_of_objects(result.warnings);
@@ -77,21 +76,21 @@ void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged) {
   survey.warnings = std::move(all);
 }
 
-SceneSurvey survey_file(Workspace& workspace, const fs::path& file) {
-  return survey_blend(workspace, import_scene(workspace, file));
+SceneSurvey survey_file(BlenderSession& session, const fs::path& file) {
+  return survey_blend(session, import_scene(session, file));
 }
 
-SurveyResult survey_scene(Workspace& workspace) {
-  const SceneSettings& scene = workspace.settings().scene;
-  const BlendPath own = import_scene(workspace, scene.file);
+SurveyResult survey_scene(BlenderSession& session) {
+  const SceneSettings& scene = session.settings().scene;
+  const BlendPath own = import_scene(session, scene.file);
   SceneBlends blends{own, own};
   std::vector<std::string> logged;
   if (scene.materials == SceneSettings::Materials::lambert) {
-    LambertScene lambert = make_lambert_scene(workspace, own);
+    LambertScene lambert = make_lambert_scene(session, own);
     blends.shown = lambert.blend;
     logged = std::move(lambert.warnings);
   }
-  SurveyResult result{survey_blend(workspace, blends.shown), blends};
+  SurveyResult result{survey_blend(session, blends.shown), blends};
   result.survey.scene_file = scene.file.string();
   log_warnings(result.survey, logged);
   if (result.survey.objects.empty()) {

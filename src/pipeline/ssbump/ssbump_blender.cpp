@@ -172,8 +172,8 @@ FloatImage read_pixels(const fs::path& file, int width, int height) {
 
 class HeightMapBake {
  public:
-  HeightMapBake(Workspace& workspace, const HeightField& field, const SsbumpBlenderOptions& options)
-      : workspace_(workspace), field_(field), options_(options) {
+  HeightMapBake(BlenderSession& session, const HeightField& field, const SsbumpBlenderOptions& options)
+      : session_(session), field_(field), options_(options) {
     tiles_.width = field.width();
     tiles_.height = field.height();
     tiles_.directions.emplace_back(0, 0, 1);
@@ -183,12 +183,12 @@ class HeightMapBake {
   }
 
   SsbumpWeights run() {
-    folder_ = workspace_.new_folder("height-map");
+    folder_ = session_.new_folder("height-map");
     Launch launch;
     launch.entry = "height_map_entry.py";
     launch.folder = folder_;
     launch.request = request();
-    (void)workspace_.run(std::move(launch));
+    (void)session_.run(std::move(launch));
     SsbumpWeights weights{FloatImage(field_.width(), field_.height(), SsbumpWeights::channels)};
     take_sky(weights.image);
     if (!by_sky()) take_lamps(weights.image);
@@ -262,7 +262,7 @@ class HeightMapBake {
     }
   }
 
-  Workspace& workspace_;
+  BlenderSession& session_;
   const HeightField& field_;
   const SsbumpBlenderOptions& options_;
   Tiles tiles_;
@@ -271,7 +271,7 @@ class HeightMapBake {
 
 }  // namespace
 
-SsbumpWeights bake_height_map(Workspace& workspace, const HeightField& field,
+SsbumpWeights bake_height_map(BlenderSession& session, const HeightField& field,
                               const SsbumpBlenderOptions& options) {
   if (field.heights.texels() > most_texels) {
     fail(ExitCode::unsupported,
@@ -279,8 +279,8 @@ SsbumpWeights bake_height_map(Workspace& workspace, const HeightField& field,
          field.width(), field.height());
   }
   log::info("baking a height map of {} x {} texels with Blender {}", field.width(), field.height(),
-            workspace.blender().info().version_text);
-  return HeightMapBake(workspace, field, options).run();
+            session.blender().info().version_text);
+  return HeightMapBake(session, field, options).run();
 }
 
 }  // namespace rnmbake

@@ -23,7 +23,7 @@ inline constexpr double area_light_half_angle = 30;  // degrees
 
 /// The surface is height_mesh() with its copies, black. Error(unsupported) above 1024 x 1024 texels; throws
 /// what a failed launch stands for.
-[[nodiscard]] SsbumpWeights bake_height_map(Workspace& workspace, const HeightField& field,
+[[nodiscard]] SsbumpWeights bake_height_map(BlenderSession& session, const HeightField& field,
                                             const SsbumpBlenderOptions& options);
 
 }  // namespace rnmbake

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -33,10 +32,7 @@ constexpr double noticed_overlap =
 
 bool is_mesh_file(const std::string& name) {
   static constexpr std::array<const char*, 4> endings{".blend", ".glb", ".gltf", ".obj"};
-  std::string ending = fs::path(name).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return std::ranges::find(endings, lower_extension(name)) != endings.end();
 }
 
 bool fits(const std::vector<std::string>& patterns, const SceneObject& object) {
@@ -58,7 +54,7 @@ void check_patterns(const std::vector<std::string>& patterns, const SceneSurvey&
        file.string());
 }
 
-SceneSurvey survey_meshes(Workspace& workspace, const fs::path& file) {
+SceneSurvey survey_meshes(BlenderSession& session, const fs::path& file) {
   if (!is_mesh_file(file.string()))
     fail(ExitCode::usage, "{}: not a mesh by its ending; give a .blend, .glb, .gltf or .obj file",
          file.string());
@@ -66,7 +62,7 @@ SceneSurvey survey_meshes(Workspace& workspace, const fs::path& file) {
   if (!fs::is_regular_file(file, ignored))
     fail(ExitCode::io, "{}: no such file; check the path", file.string());
   log::info("reading {}", file.string());
-  SceneSurvey survey = survey_file(workspace, file);
+  SceneSurvey survey = survey_file(session, file);
   for (const std::string& warning : survey.warnings) log::debug("{}", warning);
   if (!survey.objects.empty()) return survey;
   fail(ExitCode::invalid_input, "{}: holds no mesh that renders: is everything hidden from rendering?",
@@ -144,13 +140,13 @@ struct Meshes {
 
 class MeshReader {
  public:
-  MeshReader(Workspace& workspace, const SsbumpMeshOptions& options)
-      : workspace_(workspace), options_(options) {
+  MeshReader(BlenderSession& session, const SsbumpMeshOptions& options)
+      : session_(session), options_(options) {
     for (const std::string& one : options.onto) (is_mesh_file(one) ? files_ : names_).push_back(one);
   }
 
   Meshes read() {
-    const SceneSurvey survey = survey_meshes(workspace_, options_.high);
+    const SceneSurvey survey = survey_meshes(session_, options_.high);
     check_patterns(names_, survey, options_.high, "--onto");
     check_patterns(options_.high_objects, survey, options_.high, "--high-objects");
     for (std::size_t i = 0; i < survey.objects.size(); ++i) {
@@ -168,7 +164,7 @@ class MeshReader {
 
  private:
   void add_low_file(const fs::path& file) {
-    const SceneSurvey survey = survey_meshes(workspace_, file);
+    const SceneSurvey survey = survey_meshes(session_, file);
     check_patterns(options_.low_objects, survey, file, "--low-objects");
     for (std::size_t i = 0; i < survey.objects.size(); ++i) {
       const SceneObject& object = survey.objects[i];
@@ -186,7 +182,7 @@ class MeshReader {
            options_.onto.front());
   }
 
-  Workspace& workspace_;
+  BlenderSession& session_;
   const SsbumpMeshOptions& options_;
   std::vector<std::string> files_, names_;  // of --onto
   Meshes meshes_;
@@ -291,14 +287,14 @@ MeshOcclusion measure(const Meshes& meshes, const MeshOcclusionOptions& options)
 
 }  // namespace
 
-SsbumpMesh measure_ssbump_mesh(Workspace& workspace, const SsbumpMeshOptions& options) {
-  const Meshes meshes = MeshReader(workspace, options).read();
+SsbumpMesh measure_ssbump_mesh(BlenderSession& session, const SsbumpMeshOptions& options) {
+  const Meshes meshes = MeshReader(session, options).read();
   check_uvs(meshes.low, options);
   SsbumpMesh result;
   MeshOcclusionOptions measured = options.measure;
   if (!(measured.cage > 0)) measured.cage = default_cage(meshes.low);
   result.cage = measured.cage;
-  result.blender_version = workspace.blender().info().version_text;
+  result.blender_version = session.blender().info().version_text;
   for (const LowSurface& low : meshes.low) result.objects.push_back(low.name);
   log::info("{} of detail on {}, {} x {} texels, {} each, cage {:.4g}",
             counted(meshes.high.position.size() / 3, "triangle"), fmt::join(result.objects, ", "),

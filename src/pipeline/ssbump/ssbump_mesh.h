@@ -36,6 +36,6 @@ struct SsbumpMesh {
 /// Reads the meshes by Blender and measures. All low objects share one picture. Logs what missed.
 /// Throws Error(invalid_input) where a low object has no UVs, or they overlap, or no texel finds detail;
 /// Error(usage) where a pattern fits no object; Interrupted.
-[[nodiscard]] SsbumpMesh measure_ssbump_mesh(Workspace& workspace, const SsbumpMeshOptions& options);
+[[nodiscard]] SsbumpMesh measure_ssbump_mesh(BlenderSession& session, const SsbumpMeshOptions& options);
 
 }  // namespace rnmbake

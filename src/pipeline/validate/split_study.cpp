@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/text.h"
+#include "config/recipe_names.h"
 #include "pipeline/compare/compare.h"
 #include "scene/uv_raster.h"
 
@@ -178,7 +179,7 @@ StudyPoint study_point(const VariantBase& base, const Splitting& splitting, cons
   std::ranges::replace(name, ' ', '-');
   const std::filesystem::path folder = std::filesystem::path("study") / name;
   const BakeVariant recipe{BakingSettings::Recipe::flat_normal_map, SceneSettings::Materials::lambert,
-                           folder / "flat-normal-map", seed};
+                           folder / flat_normal_map_name, seed};
   StudyPoint point;
   point.name = splitting.name;
   point.targets = splitting.list.targets.size();
@@ -187,8 +188,8 @@ StudyPoint study_point(const VariantBase& base, const Splitting& splitting, cons
   }
   (void)trace_variant(base, splitting.list, {plan, folder / "reference", seed + 2, "tracing"});
   CompareOptions options;
-  options.candidate = {half_folder(base, recipe, 0), half_folder(base, recipe, 1), "flat-normal-map"};
-  options.reference.path = base.workspace.settings().output.dir / folder / "reference";
+  options.candidate = {half_folder(base, recipe, 0), half_folder(base, recipe, 1), flat_normal_map_name};
+  options.reference.path = base.session.settings().output.dir / folder / "reference";
   options.with_maps = false;
   point.error = over_bases(compare_lightmaps(options).scene);
   return point;

@@ -1,6 +1,7 @@
 #include "pipeline/validate/validate_finding.h"
 
 #include "base/text.h"
+#include "encoding/encodings.h"
 #include "report/finding.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ template <typename T, typename Name>
 std::vector<const T*> directional(const std::vector<T>& bases, Name name) {
   std::vector<const T*> chosen;
   for (const T& basis : bases) {
-    if (name(basis) != "flat") chosen.push_back(&basis);
+    if (name(basis) != flat_layers.front()) chosen.push_back(&basis);
   }
   if (chosen.empty()) {
     for (const T& basis : bases) chosen.push_back(&basis);
@@ -68,12 +69,12 @@ Causes causes_of(const std::vector<const BasisDecomposition*>& bases) {
 }
 
 /// "light 'Lamp': node tree" and how many more.
-std::string told(const std::vector<std::string>& not_followed) {
+std::string named(const std::vector<std::string>& not_followed) {
   if (not_followed.size() == 1) return not_followed.front();
   return fmt::format("{} and {} more", not_followed.front(), not_followed.size() - 1);
 }
 
-std::string told(const BounceLimit& limit) {
+std::string named(const BounceLimit& limit) {
   if (limit.bounces < 0 || std::abs(limit.relative_bias.value) < worth_telling) return "";
   return fmt::format("; the bounce limit of {} costs {:+.1f} %", limit.bounces,
                      100 * limit.relative_bias.value);
@@ -105,7 +106,7 @@ std::string receiver_finding(const Report& receiver) {
     if (worst == &object) largest = own;
   }
   if (receiver.objects.empty()) return "receiver: nothing was compared";
-  const std::string limit = told(receiver.bounce_limit);
+  const std::string limit = named(receiver.bounce_limit);
   const std::string objects = counted(receiver.objects.size(), "object");
   const std::string unsure = too_noisy == 0
                                  ? ""
@@ -120,7 +121,7 @@ std::string receiver_finding(const Report& receiver) {
   if (beyond.empty())
     return fmt::format("receiver: {} of {} {} a bias {}{}{}", off, objects, off == 1 ? "has" : "have", most,
                        limit, unsure);
-  return fmt::format("receiver: not followed by the reference: {}; {} of {} {} {}{}{}", told(beyond), off,
+  return fmt::format("receiver: not followed by the reference: {}; {} of {} {} {}{}{}", named(beyond), off,
                      objects, off == 1 ? "differs" : "differ", most, limit, unsure);
 }
 

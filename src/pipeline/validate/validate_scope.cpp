@@ -19,10 +19,10 @@ float brightest(const Vec3& color) {
 
 float brightest_albedo(const DiffuseScene& scene) {
   float most = 0;
-  for (const SurfaceMaterial& look : scene.materials) {
-    most = std::max(most, brightest(look.albedo));
-    if (look.albedo_picture < 0) continue;
-    for (const Vec3& texel : scene.pictures[static_cast<std::size_t>(look.albedo_picture)].texels)
+  for (const SurfaceMaterial& material : scene.materials) {
+    most = std::max(most, brightest(material.albedo));
+    if (material.albedo_picture < 0) continue;
+    for (const Vec3& texel : scene.pictures[static_cast<std::size_t>(material.albedo_picture)].texels)
       most = std::max(most, brightest(texel));
   }
   return std::min(most, 1.0F);

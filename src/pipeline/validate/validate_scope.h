@@ -1,5 +1,5 @@
-// pipeline/validate/validate_scope.h - where bake and reference differ by what they were told or can do, not
-// by error.
+// pipeline/validate/validate_scope.h - where bake and reference differ by what they are asked or able to do,
+// not by error.
 #pragma once
 
 #include "report/comparison.h"

@@ -20,14 +20,14 @@ OutputSettings plain_output(const OutputSettings& output, const std::filesystem:
 }
 
 ResolvedConfig config_for(const VariantBase& base, const std::filesystem::path& dir) {
-  ResolvedConfig config = base.workspace.config();
+  ResolvedConfig config = base.session.config();
   config.globals.output = plain_output(config.globals.output, dir);
   make_folders(dir);
   return config;
 }
 
 std::filesystem::path output_of(const VariantBase& base) {
-  return base.workspace.settings().output.dir;
+  return base.session.settings().output.dir;
 }
 
 }  // namespace
@@ -47,11 +47,11 @@ BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const Bak
     object.samples = std::max(1, object.samples / 2);
     object.seed += variant.seed + half;
   }
-  Workspace workspace(config, base.workspace.blender());
+  BlenderSession session(config, base.session.blender());
   const bool lambert = variant.materials == SceneSettings::Materials::lambert;
   SceneBlends blends = base.exported.blends.value();
   if (!lambert) blends.shown = blends.own;
-  return run_bake(workspace, {base.exported.diffuse_scene.survey, halved, base.bases, blends});
+  return run_bake(session, {base.exported.diffuse_scene.survey, halved, base.bases, blends});
 }
 
 ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, const TraceVariant& variant) {

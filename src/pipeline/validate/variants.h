@@ -13,7 +13,7 @@ namespace rnmbake {
 
 /// What all variants of one scene share.
 struct VariantBase {
-  const Workspace& workspace;
+  const BlenderSession& session;
   const ExportResult& exported;
   const TraceScene& scene;
   const std::vector<BasisDirection>& bases;

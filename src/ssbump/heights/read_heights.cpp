@@ -3,12 +3,12 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/names.h"
+#include "base/text.h"
 #include "image/channels.h"
 #include "image/picture_rows.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -21,12 +21,6 @@ namespace rnmbake {
 namespace {
 
 constexpr int kRows = 64;  // read at a time
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Channels of a file from `first` on, weighted: one, or the three of luminance.
 struct Source {
@@ -41,16 +35,17 @@ class Channels {
 
   [[nodiscard]] Source find(const std::string& wanted) const {
     if (wanted.empty()) return by_names();
-    if (lower(wanted) == "luminance") {
+    if (lower_case(wanted) == "luminance") {
       if (const auto colour = colour_channels(names_, file_, remedy); !colour.empty())
         return luminance(colour);
     }
     for (std::size_t i = 0; i < names_.size(); ++i)
-      if (lower(names_[i]) == lower(wanted)) return single(static_cast<int>(i));
+      if (lower_case(names_[i]) == lower_case(wanted)) return single(static_cast<int>(i));
     constexpr std::array<std::pair<const char*, const char*>, 4> words{
         {{"red", "r"}, {"green", "g"}, {"blue", "b"}, {"alpha", "a"}}};
     for (const auto& [word, letter] : words)
-      if (lower(wanted) == word && std::ranges::count(names_, letter, lower) > 0) return find(letter);
+      if (lower_case(wanted) == word && std::ranges::count(names_, letter, lower_case) > 0)
+        return find(letter);
     return numbered(wanted);
   }
 
@@ -76,7 +71,7 @@ class Channels {
   }
 
   static bool is_alpha(const std::string& name) {
-    return lower(name) == "a" || lower(name) == "alpha" || lower(name).ends_with(".a");
+    return lower_case(name) == "a" || lower_case(name) == "alpha" || lower_case(name).ends_with(".a");
   }
 
   /// Weights of the channels from the first of the three to the last, whatever lies between them.

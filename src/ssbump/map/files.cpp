@@ -1,10 +1,10 @@
 #include "ssbump/map/files.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "ssbump/map/weights.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <utility>
 
@@ -12,10 +12,7 @@ namespace rnmbake {
 namespace {
 
 bool is_exr(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".exr";
+  return lower_extension(file) == ".exr";
 }
 
 Storage meant_by(const std::filesystem::path& file, SsbumpBits bits) {

@@ -16,15 +16,15 @@ struct Bake {
   explicit Bake(std::size_t objects, const BakeSettings& settings = {})
       : scene(objects, settings),
         context(scene.context()),
-        workspace(scene.config(), blender),
+        session(scene.config(), blender),
         collector(context, scene.settings().output, scene.notes()) {}
 
-  BakeTimings run() { return run_batches(workspace, context, BlendPath("scene.blend"), collector); }
+  BakeTimings run() { return run_batches(session, context, BlendPath("scene.blend"), collector); }
 
   Invented scene;
   BakeContext context;
   FakeBlender blender;
-  Workspace workspace;
+  BlenderSession session;
   BakeCollector collector;
 };
 

@@ -34,9 +34,9 @@ class TwoObjects : public testing::Test {
     list.targets.resize(objects);
     list.settings.resize(objects);
     if (objects < 2) list.skipped.push_back({"wall", "not selected"});
-    Workspace workspace(config_, blender_);
+    BlenderSession session(config_, blender_);
     const EarlierLightmaps earlier =
-        find_earlier(workspace, {kind_, bases_}, exported_.diffuse_scene.survey, list.targets);
+        find_earlier(session, {kind_, bases_}, exported_.diffuse_scene.survey, list.targets);
     const TraceScene scene(exported_.diffuse_scene, plan_.blender_version);
     (void)run_reference({scene, list, bases_, earlier}, config_.globals, plan_);
   }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "encoding/basis_set.h"
+#include "encoding/encodings.h"
 #include "encoding/rnm.h"
 #include "ssbump/generate/generate.h"
 #include "ssbump/heights/height_shadows.h"
@@ -29,8 +30,10 @@ Lightmap sided() {
   Lightmap lightmap;
   lightmap.metadata.bases = rnm_set().directions;
   lightmap.metadata.normalize = Normalize::flat;
-  lightmap.flat = constant(2, 2, 3, 0.5F);
-  lightmap.rnm = {constant(2, 2, 3, 0.8F), constant(2, 2, 3, 0.5F), constant(2, 2, 3, 0.2F)};
+  lightmap.layers["flat"] = constant(2, 2, 3, 0.5F);
+  lightmap.layers["rnm0"] = constant(2, 2, 3, 0.8F);
+  lightmap.layers["rnm1"] = constant(2, 2, 3, 0.5F);
+  lightmap.layers["rnm2"] = constant(2, 2, 3, 0.2F);
   return lightmap;
 }
 
@@ -91,7 +94,7 @@ TEST_F(DecodeSsbump, FollowsTheGreenOfTheLightmap) {
   const SsbumpPicture map = stored(some_weights(), {}, "a.exr");
   Lightmap down = sided();
   down.metadata.green = Green::y_down;
-  std::swap(down.rnm[1], down.rnm[2]);  // the same light
+  std::swap(down.layers["rnm1"], down.layers["rnm2"]);  // the same light
   const FloatImage a = decode_ssbump(sided(), map, DecodeVariant::squared);
   const FloatImage b = decode_ssbump(down, map, DecodeVariant::squared);
   for (std::size_t i = 0; i < a.data().size(); ++i) EXPECT_NEAR(a.data()[i], b.data()[i], 1e-6);
@@ -119,9 +122,10 @@ Fit fit_to_shadows(const HeightField& field, SsbumpPicture map, SsbumpAlpha alph
     const double z = (k + 0.5) / kLights, turn = k * pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
     const Vec3 light(Vec3d(r * std::cos(turn), r * std::sin(turn), z));
     Lightmap lightmap = sided();
-    lightmap.flat = constant(2, 2, 3, light.z);
+    lightmap.layers["flat"] = constant(2, 2, 3, light.z);
     const auto maps = rnm_scaled_to_flat(rnm_linear_weights(light), light.z);
-    for (std::size_t i = 0; i < 3; ++i) lightmap.rnm[i] = constant(2, 2, 3, maps[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      lightmap.layers[std::string(rnm_layers[i])] = constant(2, 2, 3, maps[i]);
     const FloatImage lit = decode_ssbump(lightmap, map, DecodeVariant::squared);
     const FloatImage shadows = height_shadows(field, light);
     for (std::size_t i = 0; i < shadows.data().size(); ++i) {

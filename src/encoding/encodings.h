@@ -1,0 +1,44 @@
+// encoding/encodings.h - the encodings whose layers a lightmap may hold, one row each.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rnmbake {
+
+/// Each layer holds R, G and B. What the numbers mean stands in the encoding's own header of this folder.
+struct Encoding {
+  std::string_view name;
+  std::span<const std::string_view> layers;  // in the order of the encoding's own formulas
+};
+
+inline constexpr std::array<std::string_view, 1> flat_layers{"flat"};
+inline constexpr std::array<std::string_view, 3> rnm_layers{"rnm0", "rnm1", "rnm2"};
+inline constexpr std::array<std::string_view, 9> sh_layers{"sh0", "sh1", "sh2", "sh3", "sh4",
+                                                           "sh5", "sh6", "sh7", "sh8"};
+
+inline constexpr Encoding flat_encoding{"flat", flat_layers};  // E/pi of the surface's own normal
+inline constexpr Encoding rnm_encoding{"rnm", rnm_layers};     // encoding/rnm.h; McTaggart (2004)
+inline constexpr Encoding sh_encoding{"sh", sh_layers};        // encoding/sh.h; Ramamoorthi, Hanrahan (2001)
+
+inline constexpr std::array<Encoding, 3> encodings{flat_encoding, rnm_encoding, sh_encoding};
+
+/// The layer of this name is one of the encoding's.
+[[nodiscard]] inline bool holds_layer(const Encoding& encoding, std::string_view name) {
+  return std::ranges::find(encoding.layers, name) != encoding.layers.end();
+}
+
+/// Name of a basis' layer within one EXR file: the flat bake is the plain layer, which every viewer shows.
+[[nodiscard]] inline std::string exr_layer(std::string_view basis) {
+  return basis == flat_layers.front() ? std::string() : std::string(basis);
+}
+
+/// Name of the basis, or of the other layer, that an EXR layer holds.
+[[nodiscard]] inline std::string name_of_exr_layer(std::string_view layer) {
+  return std::string(layer.empty() ? flat_layers.front() : layer);
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,15 @@
+// pipeline/validate/validate_options.h - what a user chooses of a validation, beside the settings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct ValidateOptions {
+  std::vector<std::string> decompose{"*"};  // objects (glob patterns) that the published recipe bakes too
+  bool split_study = false;
+  int view = 480;  // pixels along the longer side of the camera's view in the report; 0: none
+};
+
+}  // namespace rnmbake

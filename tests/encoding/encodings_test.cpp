@@ -1,0 +1,41 @@
+#include "encoding/encodings.h"
+
+#include "encoding/basis_set.h"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+TEST(Encodings, NoTwoShareALayer) {
+  std::set<std::string> names, layers;
+  std::size_t count = 0;
+  for (const Encoding& encoding : encodings) {
+    EXPECT_TRUE(names.insert(std::string(encoding.name)).second) << encoding.name;
+    for (const auto layer : encoding.layers) layers.insert(std::string(layer));
+    count += encoding.layers.size();
+  }
+  EXPECT_EQ(layers.size(), count);
+}
+
+TEST(Encodings, TheFlatBakeIsThePlainLayerOfAFile) {
+  EXPECT_EQ(exr_layer("flat"), "");
+  EXPECT_EQ(exr_layer("rnm1"), "rnm1");
+  for (const Encoding& encoding : encodings) {
+    for (const auto layer : encoding.layers) EXPECT_EQ(name_of_exr_layer(exr_layer(layer)), layer);
+  }
+}
+
+TEST(Encodings, BasesThatAreBakedAreNamedAfterThem) {
+  const BasisSet rnm = rnm_set();
+  ASSERT_EQ(rnm.directions.size(), rnm_encoding.layers.size());
+  for (std::size_t i = 0; i < rnm.directions.size(); ++i)
+    EXPECT_EQ(rnm.directions[i].name, rnm_encoding.layers[i]);
+  EXPECT_EQ(flat_direction().name, flat_encoding.layers.front());
+}
+
+}  // namespace
+}  // namespace rnmbake
