@@ -1,5 +1,5 @@
-// scene/diffuse_scene.h - a whole scene as a diffuse path tracer needs it: geometry, looks, lights, world,
-// camera. Kept in one .rnmscene file (docs/rnmscene-format.md).
+// scene/diffuse_scene.h - a whole scene as a diffuse path tracer needs it: geometry, materials, lights,
+// world, camera. Kept in one .rnmscene file (docs/rnmscene-format.md).
 #pragma once
 
 #include "base/math.h"
@@ -26,7 +26,7 @@ struct NormalMap {
   float strength = 1;
 };
 
-/// What one material slot of one object looks like to Cycles: an ideal diffuse reflector that may glow and
+/// What one material slot of one object is to Cycles: an ideal diffuse reflector that may glow and
 /// let light straight through. A picture stands in place of the constant; it is read bilinearly, clamped at
 /// the borders.
 struct SurfaceMaterial {

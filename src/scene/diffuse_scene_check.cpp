@@ -69,7 +69,7 @@ bool has_layer(const Mesh& mesh, const std::string& name) {
                      [&](const UvLayer& layer) { return layer.name == name; });
 }
 
-/// That the look's UVs are made for the object's mesh.
+/// That the material's UVs are made for the object's mesh.
 void check_fit(const DiffuseScene& scene, const SceneObject& object, const SurfaceMaterial& material) {
   const Mesh& mesh = scene.survey.mesh_of(object);
   const auto uvs = static_cast<std::size_t>(material.picture_uv),
@@ -87,15 +87,15 @@ void check_fit(const DiffuseScene& scene, const SceneObject& object, const Surfa
 void check_objects(const DiffuseScene& scene) {
   const auto& objects = scene.survey.objects;
   if (scene.object_materials.size() != objects.size()) {
-    fail(ExitCode::invalid_input, "looks for {} objects, but there are {}; {}", scene.object_materials.size(),
-         objects.size(), remedy);
+    fail(ExitCode::invalid_input, "materials for {} objects, but there are {}; {}",
+         scene.object_materials.size(), objects.size(), remedy);
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::string owner = "object '" + objects[i].key + "'";
     if (scene.object_materials[i].empty())
-      fail(ExitCode::invalid_input, "{}: it has no look; {}", owner, remedy);
+      fail(ExitCode::invalid_input, "{}: it has no material; {}", owner, remedy);
     for (const int material : scene.object_materials[i]) {
-      check_index(material, scene.materials.size(), false, owner, "look");
+      check_index(material, scene.materials.size(), false, owner, "material");
       check_fit(scene, objects[i], scene.materials[static_cast<std::size_t>(material)]);
     }
   }

@@ -15,7 +15,7 @@ Vec3 read_color(const json& values, const std::string& owner) {
   return {values.at(0).get<float>(), values.at(1).get<float>(), values.at(2).get<float>()};
 }
 
-SurfaceMaterial read_look(const json& entry) {
+SurfaceMaterial read_surface_material(const json& entry) {
   SurfaceMaterial material;
   material.name = entry.at("material").get<std::string>();
   material.albedo = read_color(entry.at("albedo"), "albedo of material '" + material.name + "'");
@@ -58,8 +58,8 @@ void read_pictures(const json& content, Blob& data, DiffuseScene& scene) {
                                  entry.at("strength").get<float>()});
 }
 
-void read_looks(const json& content, DiffuseScene& scene) {
-  for (const json& entry : content.at("looks")) scene.materials.push_back(read_look(entry));
+void read_surface_materials(const json& content, DiffuseScene& scene) {
+  for (const json& entry : content.at("looks")) scene.materials.push_back(read_surface_material(entry));
   for (const json& entry : content.at("object_looks")) {
     std::vector<int>& slots = scene.object_materials.emplace_back();
     for (const json& material : entry) slots.push_back(index_of(material, "look"));
@@ -80,7 +80,7 @@ DiffuseScene parse_diffuse_scene_content(const json& content, Blob& data) {
   scene.survey = parse_survey(content, data);
   const json& own = content.at("exchange");
   read_pictures(own, data, scene);
-  read_looks(own, scene);
+  read_surface_materials(own, scene);
   scene.world.radiance = read_color(own.at("world").at("radiance"), "world");
   scene.world.picture = index_at(own.at("world"), "picture");
   if (const json& camera = own.at("camera"); !camera.is_null()) scene.camera = read_camera(camera);

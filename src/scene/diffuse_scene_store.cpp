@@ -99,7 +99,7 @@ json store_survey(const SceneSurvey& survey, std::string& data) {
   return content;
 }
 
-json store_look(const SurfaceMaterial& material) {
+json store_surface_material(const SurfaceMaterial& material) {
   return {{"material", material.name},
           {"albedo", store_color(material.albedo)},
           {"emission", store_color(material.emission)},
@@ -139,7 +139,8 @@ json store_diffuse_scene(const DiffuseScene& scene, std::string& data) {
   for (const NormalMap& map : scene.normal_maps)
     own["normal_maps"].push_back(
         {{"picture", map.picture}, {"uv_layer", map.uv_layer}, {"strength", map.strength}});
-  for (const SurfaceMaterial& material : scene.materials) own["looks"].push_back(store_look(material));
+  for (const SurfaceMaterial& material : scene.materials)
+    own["looks"].push_back(store_surface_material(material));
   for (std::size_t i = 0; i < scene.survey.objects.size(); ++i) {
     if (!scene.takes_part(i)) own["unlit"].push_back(i);
   }
