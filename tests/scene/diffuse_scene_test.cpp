@@ -182,8 +182,9 @@ TEST(DiffuseScene, SaysThatAFileIsNotThere) {
 }
 
 TEST(DiffuseScene, RefusesIndicesThatPointNowhere) {
-  EXPECT_SAYS("object 'ghost': look 9 of 2", [](Parts& p) { p.own()["object_looks"][1][0] = 9; });
-  EXPECT_SAYS("object 'ghost': it has no material", [](Parts& p) { p.own()["object_looks"][1] = json::array(); });
+  EXPECT_SAYS("object 'ghost': material 9 of 2", [](Parts& p) { p.own()["object_looks"][1][0] = 9; });
+  EXPECT_SAYS("object 'ghost': it has no material",
+              [](Parts& p) { p.own()["object_looks"][1] = json::array(); });
   EXPECT_SAYS("materials for 1 objects", [](Parts& p) { p.own()["object_looks"].erase(1); });
   EXPECT_SAYS("material 'brick': albedo picture 3 of 3",
               [](Parts& p) { p.own()["looks"][0]["albedo_picture"] = 3; });
