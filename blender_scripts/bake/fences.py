@@ -30,18 +30,16 @@ def build(task, scene):
 
 
 def _mesh_of(stream, count):
-    """Four corners each, then the normal of the face for each corner. Each strip stands twice, split along either of its
-    diagonals: rays may slip through one of those where it is as narrow as floats are coarse (seen in 5.2)."""
+    """Four corners each, then the normal of the face for each corner."""
     mesh = bpy.data.meshes.new("rnmbake fence")
     mesh.vertices.add(4 * count)
-    mesh.loops.add(8 * count)
-    mesh.polygons.add(2 * count)
+    mesh.loops.add(4 * count)
+    mesh.polygons.add(count)
     mesh.vertices.foreach_set("co", read_floats(stream, 12 * count))
-    turned = (first + (k + 1) % 4 for first in range(0, 4 * count, 4) for k in range(4))
-    mesh.loops.foreach_set("vertex_index", array("i", [*range(4 * count), *turned]))
-    mesh.polygons.foreach_set("loop_start", array("i", range(0, 8 * count, 4)))
+    mesh.loops.foreach_set("vertex_index", array("i", range(4 * count)))
+    mesh.polygons.foreach_set("loop_start", array("i", range(0, 4 * count, 4)))
     if bpy.app.version < (4, 0):
-        mesh.polygons.foreach_set("loop_total", array("i", [4]) * (2 * count))
+        mesh.polygons.foreach_set("loop_total", array("i", [4]) * count)
     mesh.attributes.new(UP, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", read_floats(stream, 12 * count))
     mesh.update()
     return mesh

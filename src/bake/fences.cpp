@@ -154,13 +154,16 @@ double diagonal_of(const Surface& surface) {
 Fence fence_along(const Rim& rim, double diagonal) {
   const SurfaceTriangle& face = *rim.face;
   const Vec3d up(face.normal);
-  const Vec3d out = Face(face, Vec2(1)).way_out(rim.corner) * double(face.height);
+  const Face flat(face, Vec2(1));
+  const Vec3d way_out = flat.way_out(rim.corner), out = way_out * double(face.height);
+  const Vec3d ahead = Vec3d(face.normal).cross(way_out);  // along the edge
   Fence fence{{}, face.normal};
   for (std::size_t end = 0; end < 2; ++end) {
     const Vec3& corner = face.corners[(rim.corner + end) % 3].position;
-    const double top =
-        1.5 * face.height + (rim.along ? start_offset(corner, face.normal) + grazing_sine * diagonal : 0.0);
-    const Vec3d place = Vec3d(corner) + out;
+    const double moved = rim.along ? start_offset(corner, face.normal) : 0.0;
+    const double top = 1.5 * face.height + moved + (rim.along ? grazing_sine * diagonal : 0.0);
+    // Coordinates move by float steps of their own, so a start may leave the face sideways, too.
+    const Vec3d place = Vec3d(corner) + out + ahead * (end == 0 ? -moved : moved);
     fence.corners[end] = Vec3(place - up * (2 * face.height));
     fence.corners[3 - end] = Vec3(place + up * top);
   }
