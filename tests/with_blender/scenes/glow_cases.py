@@ -4,10 +4,15 @@ Strips of four unit squares, black, of which the first glows green from both sid
 middle of that which faces it; near the origin and far from it, flat and turned. A red sun shines straight
 down.
 """
+import os
 import sys
 
 import bpy
 from mathutils import Euler, Matrix, Vector
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import squares  # noqa: E402
 
 # Distance from the origin, sideways; height; turn. Each stands under the horizons of the others, but for the last.
 PLACES = {"here": (0, 0, (0, 0, 0)), "turned": (100, -10, (0.3, 0.7, 1.1)), "km": (1000, -200, (0.3, 0.7, 3.1)),
@@ -15,11 +20,7 @@ PLACES = {"here": (0, 0, (0, 0, 0)), "turned": (100, -10, (0.3, 0.7, 1.1)), "km"
 
 
 def main(path):
-    for ob in list(bpy.data.objects):
-        bpy.data.objects.remove(ob)
-    world = bpy.context.scene.world = bpy.data.worlds.new("black")
-    world.use_nodes = True
-    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
+    squares.empty_dark_scene()
     sun = bpy.data.lights.new("sun", "SUN")
     sun.color, sun.energy, sun.angle = (1, 0, 0), 3.14159265, 0
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("sun", sun))
@@ -50,14 +51,8 @@ def material(name, strength=0):
 
 
 def add(name, quads, to_world, *materials):
-    """Quads side by side in the UV square; the first has the first material, the others the last."""
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([corner for quad in quads for corner in quad], [],
-                     [tuple(range(4 * i, 4 * i + 4)) for i in range(len(quads))])
-    share = 1 / len(quads)
-    uvs = [value for i in range(len(quads)) for u, v in ((0, 0), (1, 0), (1, 1), (0, 1))
-           for value in ((i + u) * share, v)]
-    mesh.uv_layers.new(name="Lightmap").data.foreach_set("uv", uvs)
+    """Of the quads the first has the first material, the others the last."""
+    mesh = squares.mesh_of(name, quads)
     for each in materials:
         mesh.materials.append(each)
     for polygon in mesh.polygons:

@@ -4,22 +4,19 @@ grazing: upright walls under suns and lamps that run along them, or nearly so.
 places: a floor with a post on it under a slanted sun, the same near the origin, far from it, small and large.
 """
 import math
+import os
 import sys
 
 import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import squares  # noqa: E402
 
 # Radians between a wall's plane and the red sun, which shines straight down; positive: above the wall.
 TILTS = (0, 1e-7, -1e-7, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3, 1e-2, -1e-2)
 PLACES = {"here": ((0, 10, 0), 1), "km": ((1000, 700, 300), 1), "5km": ((-5000, 3500, 1500), 1),
           "100km": ((1e5, 7e4, 3e4), 1), "tiny": ((0, 0, 0), 1e-4), "huge": ((0, -3e5, 0), 1e4)}
-
-
-def new_scene():
-    for ob in list(bpy.data.objects):
-        bpy.data.objects.remove(ob)
-    world = bpy.context.scene.world = bpy.data.worlds.new("black")
-    world.use_nodes = True
-    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
 
 
 def black():
@@ -36,14 +33,7 @@ def black():
 
 
 def add(name, quads, place=(0, 0, 0), turn=(0, 0, 0), scale=1):
-    """Quads side by side in the UV square; each starts at its lower left corner and runs anti-clockwise."""
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([corner for quad in quads for corner in quad], [],
-                     [tuple(range(4 * i, 4 * i + 4)) for i in range(len(quads))])
-    share = 1 / len(quads)
-    uvs = [value for i in range(len(quads)) for u, v in ((0, 0), (1, 0), (1, 1), (0, 1))
-           for value in ((i + u) * share, v)]
-    mesh.uv_layers.new(name="Lightmap").data.foreach_set("uv", uvs)
+    mesh = squares.mesh_of(name, quads)
     mesh.materials.append(black())
     ob = bpy.data.objects.new(name, mesh)
     ob.location, ob.rotation_euler, ob.scale = place, turn, (scale,) * 3
@@ -113,6 +103,6 @@ def places():
 
 
 what, path = sys.argv[sys.argv.index("--") + 1:]
-new_scene()
+squares.empty_dark_scene()
 {"grazing": grazing, "places": places}[what]()
 bpy.ops.wm.save_as_mainfile(filepath=path)
