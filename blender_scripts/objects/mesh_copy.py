@@ -3,6 +3,8 @@ from array import array
 
 import bpy
 
+from scene_ops import texture_space
+
 
 def copy_mesh(ob):
     """Of an evaluated object; one of the render depsgraph keeps all UV layers."""
@@ -27,17 +29,12 @@ def _keep_normals(mesh, evaluated):
 def _keep_generated(mesh, evaluated):
     """Generated coordinates are those of the shape before modifiers, where Blender knows that: another mesh says it."""
     shape, before = (_places(evaluated.vertices, name) for name in ("co", "undeformed_co"))
-    _keep_texture_space(mesh, evaluated)
+    texture_space.keep(mesh, evaluated)
     if shape != before:
         mesh.texco_mesh = bpy.data.meshes.new("rnmbake undeformed")
         mesh.texco_mesh.vertices.add(len(evaluated.vertices))
         mesh.texco_mesh.vertices.foreach_set("co", before)
-        _keep_texture_space(mesh.texco_mesh, evaluated)
-
-
-def _keep_texture_space(mesh, evaluated):
-    mesh.use_auto_texspace = False
-    mesh.texspace_location, mesh.texspace_size = evaluated.texspace_location, evaluated.texspace_size
+        texture_space.keep(mesh.texco_mesh, evaluated)
 
 
 def _places(vertices, name):

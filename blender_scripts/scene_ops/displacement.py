@@ -9,6 +9,7 @@ import bpy
 from mathutils import Vector
 
 from core.task import Refusal
+from scene_ops import texture_space
 from scene_ops.bench import bench
 from scene_ops.describe_nodes import active_output
 from scene_ops.keys import shown_surfaces
@@ -51,7 +52,7 @@ def _find(depsgraph, displacing, found):
             continue
         _refuse_what_cannot_be_reshaped(ob.original, materials[0], makers)
         mesh = bpy.data.meshes.new_from_object(ob, preserve_all_data_layers=True, depsgraph=depsgraph)
-        _keep_texture_space(mesh, ob.original.data)
+        texture_space.keep(mesh, ob.original.data)
         found[ob.original] = mesh, materials
 
 
@@ -63,12 +64,6 @@ def _refuse_what_cannot_be_reshaped(ob, material, makers):
         raise Refusal(f"object '{ob.name}': material '{material.name}' displaces it as it renders, which is not "
                       f"followed since {why}; give it that shape by a Displace modifier, or set the material's "
                       "Settings > Surface > Displacement to Bump Only", object_name=ob.name)
-
-
-def _keep_texture_space(mesh, original):
-    """Generated coordinates stay what they are."""
-    mesh.use_auto_texspace = False
-    mesh.texspace_location, mesh.texspace_size = original.texspace_location, original.texspace_size
 
 
 def _displaced(stand, ob, mesh):
