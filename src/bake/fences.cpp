@@ -89,11 +89,13 @@ class Face {
     const double area = (k[1].position - k[0].position).cross(k[2].position - k[0].position).length();
     return texels > 0 ? std::sqrt(area / texels) : std::numeric_limits<double>::infinity();
   }
-  /// In the face's plane, unit.
-  [[nodiscard]] Vec3d way_out(std::size_t corner) const {
+  /// Direction of the edge that starts at a corner.
+  [[nodiscard]] Vec3d along(std::size_t corner) const {
     const auto& k = triangle_.corners;
-    return (Vec3d(k[(corner + 1) % 3].position) - Vec3d(k[corner].position)).cross(normal_).normalized();
+    return (Vec3d(k[(corner + 1) % 3].position) - Vec3d(k[corner].position)).normalized();
   }
+  /// Direction over that edge, in the face's plane.
+  [[nodiscard]] Vec3d way_out(std::size_t corner) const { return along(corner).cross(normal_).normalized(); }
 
  private:
   /// Whether some of the light comes from below the face, but no steeper than that (sine).
@@ -102,6 +104,7 @@ class Face {
     const double height = way.dot(normal_), range = light.far ? 1 : way.length() + radius_;
     return height - light.radius <= grazing_sine * range && height + light.radius > -steepest * range;
   }
+
   const SurfaceTriangle& triangle_;
   Vec3d normal_, centre_;
   double radius_ = 0, steepest_ = 0;
@@ -151,19 +154,17 @@ double diagonal_of(const Surface& surface) {
 }
 
 /// From a little under the face to a little over its receivers, or to where light that runs along it may be.
-Fence fence_along(const Rim& rim, double diagonal) {
+Fence fence_along(const Rim& rim, const Face& plane, double diagonal) {
   const SurfaceTriangle& face = *rim.face;
-  const Vec3d up(face.normal);
-  const Face flat(face, Vec2(1));
-  const Vec3d way_out = flat.way_out(rim.corner), out = way_out * double(face.height);
-  const Vec3d ahead = Vec3d(face.normal).cross(way_out);  // along the edge
+  const Vec3d up(face.normal), along = plane.along(rim.corner);
+  const Vec3d out = plane.way_out(rim.corner) * double(face.height);
   Fence fence{{}, face.normal};
   for (std::size_t end = 0; end < 2; ++end) {
     const Vec3& corner = face.corners[(rim.corner + end) % 3].position;
     const double moved = rim.along ? start_offset(corner, face.normal) : 0.0;
     const double top = 1.5 * face.height + moved + (rim.along ? grazing_sine * diagonal : 0.0);
     // Coordinates move by float steps of their own, so a start may leave the face sideways, too.
-    const Vec3d place = Vec3d(corner) + out + ahead * (end == 0 ? -moved : moved);
+    const Vec3d place = Vec3d(corner) + out + along * (end == 0 ? -moved : moved);
     fence.corners[end] = Vec3(place - up * (2 * face.height));
     fence.corners[3 - end] = Vec3(place + up * top);
   }
@@ -189,8 +190,9 @@ Fences make_fences(const Surface& surface, const std::vector<LightBall>& lights,
     for (auto rim = first; rim != last; ++rim) {
       if (!rim->open || std::any_of(first, last, [&](const Rim& other) { return goes_on(*rim, other); }))
         continue;
-      const Fence fence = fence_along(*rim, diagonal);
-      const double height = (fence.corners[3] - fence.corners[0]).length() / Face(*rim->face, map).texel(map);
+      const Face face(*rim->face, map);
+      const Fence fence = fence_along(*rim, face, diagonal);
+      const double height = (fence.corners[3] - fence.corners[0]).length() / face.texel(map);
       if (height > highest)
         fences.left_out = std::max(fences.left_out, height);
       else
