@@ -21,3 +21,9 @@ target_link_libraries(zstd INTERFACE ${RNMBAKE_ZSTD_LIBRARY})
 add_library(xxhash INTERFACE) # compiled in through XXH_INLINE_ALL
 find_path(RNMBAKE_XXHASH_INCLUDE xxhash.h REQUIRED)
 target_include_directories(xxhash SYSTEM INTERFACE ${RNMBAKE_XXHASH_INCLUDE})
+
+add_library(utf8proc INTERFACE)
+find_path(RNMBAKE_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
+find_library(RNMBAKE_UTF8PROC_LIBRARY utf8proc REQUIRED)
+target_include_directories(utf8proc SYSTEM INTERFACE ${RNMBAKE_UTF8PROC_INCLUDE})
+target_link_libraries(utf8proc INTERFACE ${RNMBAKE_UTF8PROC_LIBRARY})

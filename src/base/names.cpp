@@ -1,6 +1,7 @@
 #include "base/names.h"
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
@@ -13,23 +14,6 @@ namespace rnmbake {
 
 namespace {
 
-std::vector<char32_t> folded(std::string_view text) {
-  std::vector<char32_t> out;
-  for (std::size_t i = 0; i < text.size();) {
-    const CodePoint c = decode_utf8(text, i);
-    out.push_back(fold_case(c.value));
-    i += c.bytes;
-  }
-  return out;
-}
-
-/// The same for two names if some file system may take them for the same.
-std::string folded_key(std::string_view text) {
-  std::string key;
-  for (const char32_t c : folded(text)) key += fmt::format("{:x} ", static_cast<unsigned>(c));
-  return key;
-}
-
 bool harmful(const CodePoint& c) {
   static constexpr std::u32string_view forbidden = U"/\\:*?\"<>|";
   const bool control = c.value < 0x20 || (c.value >= 0x7F && c.value < 0xA0);
@@ -39,9 +23,7 @@ bool harmful(const CodePoint& c) {
 }
 
 bool reserved_by_windows(std::string_view stem) {
-  std::string base(stem.substr(0, stem.find('.')));
-  std::transform(base.begin(), base.end(), base.begin(),
-                 [](char c) { return static_cast<char>(fold_case(static_cast<unsigned char>(c))); });
+  const std::string base = lower_case(std::string(stem.substr(0, stem.find('.'))));
   if (base.size() == 4 && base[3] >= '0' && base[3] <= '9') {
     return base.compare(0, 3, "com") == 0 || base.compare(0, 3, "lpt") == 0;
   }
@@ -73,33 +55,32 @@ std::string presentable(const std::string& stem) {
 
 }  // namespace
 
-std::string cut_utf8(std::string_view text, std::size_t bytes) {
-  if (text.size() <= bytes) return std::string(text);
-  std::size_t end = 0;
-  while (end < text.size()) {
-    const std::size_t next = end + decode_utf8(text, end).bytes;
-    if (next > bytes) break;
-    end = next;
-  }
-  return std::string(text.substr(0, end));
-}
-
 FileStems::FileStems(const std::vector<std::string>& taken) {
-  for (const std::string& stem : taken) taken_.insert(folded_key(stem));
+  for (const std::string& stem : taken) taken_.insert(fold_case(stem));
 }
 
 std::string FileStems::take(std::string_view name) {
   const std::string stem = presentable(harmless(name));
-  if (stem == name && taken_.insert(folded_key(stem)).second) return stem;
+  if (stem == name && taken_.insert(fold_case(stem)).second) return stem;
   for (int attempt = 0;; ++attempt) {
     const std::string hash =
         short_hash(attempt == 0 ? std::string(name) : fmt::format("{}#{}", name, attempt));
     const std::string candidate = fmt::format("{}-{}", cut_utf8(stem, max_bytes - hash.size() - 1), hash);
-    if (taken_.insert(folded_key(candidate)).second) return candidate;
+    if (taken_.insert(fold_case(candidate)).second) return candidate;
   }
 }
 
 namespace {
+
+std::vector<char32_t> characters(std::string_view text) {
+  std::vector<char32_t> out;
+  for (std::size_t i = 0; i < text.size();) {
+    const CodePoint c = decode_utf8(text, i);
+    out.push_back(c.value);
+    i += c.bytes;
+  }
+  return out;
+}
 
 /// Optimal string alignment distance.
 std::size_t edit_distance(const std::vector<char32_t>& a, const std::vector<char32_t>& b) {
@@ -121,11 +102,11 @@ std::size_t edit_distance(const std::vector<char32_t>& a, const std::vector<char
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
-  const auto wanted = folded(word);
+  const auto wanted = characters(fold_case(word));
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(wanted, folded(candidate));
+    const std::size_t distance = edit_distance(wanted, characters(fold_case(candidate)));
     if (distance < best_distance) {
       best = candidate;
       best_distance = distance;

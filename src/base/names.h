@@ -9,10 +9,8 @@
 
 namespace rnmbake {
 
-/// At most `bytes` bytes of a UTF-8 text, never half a character.
-std::string cut_utf8(std::string_view text, std::size_t bytes);
-
-/// Hands out file stems, no two of which are the same file on any file system (nor where case is ignored).
+/// Hands out file stems, no two of which are the same file on any file system: neither where case is ignored
+/// nor where names are normalised (base/utf8: fold_case).
 class FileStems {
  public:
   static constexpr std::size_t max_bytes = 120;

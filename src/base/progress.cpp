@@ -1,8 +1,8 @@
 #include "base/progress.h"
 
 #include "base/log.h"
-#include "base/names.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "base/text.h"
 
-#include "base/names.h"
 #include "base/utf8.h"
 
 #include <spdlog/fmt/fmt.h>

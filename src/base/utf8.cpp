@@ -1,38 +1,68 @@
 #include "base/utf8.h"
 
-namespace rnmbake {
+#include <cstdlib>
+#include <memory>
+#include <new>
 
-CodePoint decode_utf8(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return {first, 1, true};
-  const CodePoint broken{first, 1, false};
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return broken;
-  char32_t value = first & (0x7F >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return broken;
-    value = (value << 6) | (byte(i) & 0x3F);
-  }
-  static constexpr char32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = value >= 0xD800 && value <= 0xDFFF;
-  if (value < smallest[length] || surrogate || value > 0x10FFFF) return broken;
-  return {value, length, true};
+#include <utf8proc.h>
+
+namespace rnmbake {
+namespace {
+
+const utf8proc_uint8_t* bytes_of(std::string_view text) {
+  return reinterpret_cast<const utf8proc_uint8_t*>(text.data());
 }
 
-char32_t fold_case(char32_t c) {
-  if (c < 0x80) return c >= 'A' && c <= 'Z' ? c + 32 : c;
-  if (c >= 0xC0 && c <= 0xDE && c != 0xD7) return c + 32;
-  if (c == 0x178) return 0xFF;
-  // Latin Extended-A comes in pairs: even/odd, but odd/even in two stretches.
-  if ((c >= 0x139 && c <= 0x148) || (c >= 0x179 && c <= 0x17E)) return c % 2 == 1 ? c + 1 : c;
-  if (c >= 0x100 && c <= 0x177) return c | 1;
-  if (c >= 0x391 && c <= 0x3A9) return c + 32;
-  if (c == 0x3C2) return 0x3C3;  // final sigma
-  if (c >= 0x410 && c <= 0x42F) return c + 32;
-  if (c >= 0x400 && c <= 0x40F) return c + 80;
-  if ((c >= 0x1E00 && c <= 0x1E95) || (c >= 0x1EA0 && c <= 0x1EFF)) return c | 1;
-  return c;
+/// `valid` must be UTF-8; the only error left is then a lack of memory.
+std::string folded(std::string_view valid) {
+  constexpr auto how = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD |
+                                                      UTF8PROC_IGNORE);
+  utf8proc_uint8_t* mapped = nullptr;
+  const utf8proc_ssize_t size =
+      utf8proc_map(bytes_of(valid), static_cast<utf8proc_ssize_t>(valid.size()), &mapped, how);
+  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(mapped, &std::free);
+  if (size < 0) throw std::bad_alloc();
+  return {reinterpret_cast<const char*>(mapped), static_cast<std::size_t>(size)};
+}
+
+}  // namespace
+
+CodePoint decode_utf8(std::string_view text, std::size_t at) {
+  utf8proc_int32_t value = 0;
+  const utf8proc_ssize_t bytes =
+      utf8proc_iterate(bytes_of(text) + at, static_cast<utf8proc_ssize_t>(text.size() - at), &value);
+  if (bytes <= 0) return {static_cast<unsigned char>(text[at]), 1, false};
+  return {static_cast<char32_t>(value), static_cast<std::size_t>(bytes), true};
+}
+
+std::string cut_utf8(std::string_view text, std::size_t bytes) {
+  if (text.size() <= bytes) return std::string(text);
+  std::size_t end = 0;
+  while (end < text.size()) {
+    const std::size_t next = end + decode_utf8(text, end).bytes;
+    if (next > bytes) break;
+    end = next;
+  }
+  return std::string(text.substr(0, end));
+}
+
+std::string fold_case(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size()) {
+      const CodePoint c = decode_utf8(text, end);
+      if (!c.valid) break;
+      end += c.bytes;
+    }
+    if (end > at) {
+      out += folded(text.substr(at, end - at));
+    } else {
+      out += text[end++];
+    }
+    at = end;
+  }
+  return out;
 }
 
 }  // namespace rnmbake

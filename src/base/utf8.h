@@ -1,7 +1,8 @@
-// base/utf8.h - the little of UTF-8 that names need: decode, check, fold case.
+// base/utf8.h - UTF-8 that may be broken: decode, check, cut, compare without regard to case.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace rnmbake {
@@ -16,7 +17,12 @@ struct CodePoint {
 /// invalid.
 CodePoint decode_utf8(std::string_view text, std::size_t at);
 
-/// Lower case of the alphabets that have it and that people use in names (Latin, Greek, Cyrillic).
-char32_t fold_case(char32_t c);
+/// At most `bytes` bytes of a UTF-8 text, never half a character.
+std::string cut_utf8(std::string_view text, std::size_t bytes);
+
+/// The same for texts that differ in case alone, in whether accents are composed, or in characters that are
+/// not seen (soft hyphens, joiners): Unicode's full case folding and NFC without default ignorable
+/// characters. Bytes that are no UTF-8 stay as they are.
+std::string fold_case(std::string_view text);
 
 }  // namespace rnmbake

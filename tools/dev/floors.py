@@ -33,6 +33,7 @@ OWNED = {
     "tbb/": {"trace", "ssbump"},
     "hwy/": {"ssbump"},
     "xxhash.h": {"base"},
+    "utf8proc.h": {"base"},
     "zlib.h": {"report", "blender"},
     "zstd.h": {"blender"},
 }
