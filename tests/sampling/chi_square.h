@@ -3,6 +3,7 @@
 
 #include "base/math.h"
 #include "sampling/splitmix64.h"
+#include "support/chance.h"
 
 #include <cmath>
 #include <cstddef>
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace rnmbake {
-
-/// Tests fail where chance alone would do so once in a million runs with other seeds.
-inline constexpr double significance = 1e-6;
 
 /// Probability that a chi-square variable with that many degrees of freedom is larger than `value`: the
 /// regularised upper incomplete gamma function Q(degrees / 2, value / 2), by its continued fraction (Lentz)
