@@ -125,7 +125,6 @@ TEST(LightLampTest, AreasOfEveryShapeAndSpread) {
       const Vec3d u = row(m, 0) * 0.8, v = row(m, 1) * (lamp.shape == "DISK" ? 0.8 : 0.35);
       const Vec3d axis = -row(m, 2).normalized(), centre = row(m, 3);
       const bool round = lamp.shape != "RECTANGLE";
-      const double area = u.length() * v.length() * (round ? pi : 4);
       const double a = spread / 2, scale = spread == pi ? 1 : 1 / (1 - a / std::tan(a));
       const Vec3 point(0.3F, -0.1F, 0), normal = Vec3(0.2F, 0.1F, 1).normalized();
       constexpr int steps = 2000;
@@ -147,7 +146,6 @@ TEST(LightLampTest, AreasOfEveryShapeAndSpread) {
         }
       }
       const double truth = sum / (double(steps) * steps) * 10 / pi;  // radiance x area = P / pi
-      ASSERT_GT(area, 0);
       expect_irradiance(scene.lights(), point, normal, truth,
                         std::string(shape) + " " + std::to_string(spread));
     }
