@@ -10,8 +10,8 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kStone = 64, kOctaves = 6;
-constexpr double kRoughness = 0.35;  // of the noise, beside the stones
+constexpr int stone_side = 64, octaves = 6;
+constexpr double roughness = 0.35;  // of the noise, beside the stones
 
 /// In [0, 1), for a point of a grid.
 double random_at(int x, int y, std::uint32_t salt) {
@@ -32,13 +32,13 @@ double noise(double x, double y, int cells, std::uint32_t salt) {
 
 /// A stone about every point of a grid that is shaken: high in the middle, steep where the next one begins.
 double stones(int x, int y, int side) {
-  const int cells = side / kStone, column = x / kStone, row = y / kStone;
+  const int cells = side / stone_side, column = x / stone_side, row = y / stone_side;
   double nearest = HUGE_VAL, next = HUGE_VAL;
   for (int j = row - 1; j <= row + 1; ++j) {
     for (int i = column - 1; i <= column + 1; ++i) {
       const int a = (i + cells) % cells, b = (j + cells) % cells;
-      const double dx = double(x) / kStone - i - 0.2 - 0.6 * random_at(a, b, 101);
-      const double dy = double(y) / kStone - j - 0.2 - 0.6 * random_at(a, b, 102);
+      const double dx = double(x) / stone_side - i - 0.2 - 0.6 * random_at(a, b, 101);
+      const double dy = double(y) / stone_side - j - 0.2 - 0.6 * random_at(a, b, 102);
       const double distance = std::hypot(dx, dy);
       next = std::min(next, std::max(nearest, distance));
       nearest = std::min(nearest, distance);
@@ -51,7 +51,7 @@ double stones(int x, int y, int side) {
 
 double fractal_noise(int x, int y, int side) {
   double sum = 0, size = 0.5;
-  for (int octave = 0, pitch = kStone; octave < kOctaves; ++octave, pitch /= 2, size /= 2)
+  for (int octave = 0, pitch = stone_side; octave < octaves; ++octave, pitch /= 2, size /= 2)
     sum +=
         size * noise(double(x) / pitch, double(y) / pitch, side / pitch, static_cast<std::uint32_t>(octave));
   return sum;
@@ -62,7 +62,7 @@ HeightField cobbles(int side, float range) {
   tbb::parallel_for(0, side, [&](int y) {
     for (int x = 0; x < side; ++x)
       field.heights.texel(x, y)[0] =
-          static_cast<float>(stones(x, y, side) + kRoughness * fractal_noise(x, y, side));
+          static_cast<float>(stones(x, y, side) + roughness * fractal_noise(x, y, side));
   });
   std::vector<float>& heights = field.heights.data();
   const auto [low, high] = std::ranges::minmax(heights);

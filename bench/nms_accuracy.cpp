@@ -29,9 +29,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSide = 256;
-constexpr int kAzimuths = 5;
-constexpr std::array kElevations{15.0, 30.0, 45.0, 60.0};
+constexpr int side_length = 256;
+constexpr int azimuths = 5;
+constexpr std::array elevations{15.0, 30.0, 45.0, 60.0};
 
 /// A surface, and the normals that a normal map of it has.
 struct Case {
@@ -48,9 +48,9 @@ Case with_own_normals(std::string name, FloatImage heights) {
 }
 
 FloatImage heights_of(const std::function<double(double, double)>& height) {
-  FloatImage heights(kSide, kSide, 1);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) heights.texel(x, y)[0] = static_cast<float>(height(x, y));
+  FloatImage heights(side_length, side_length, 1);
+  for (int y = 0; y < side_length; ++y)
+    for (int x = 0; x < side_length; ++x) heights.texel(x, y)[0] = static_cast<float>(height(x, y));
   return heights;
 }
 
@@ -80,16 +80,16 @@ double block(double x, double y) {
 FloatImage fractal() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> phase(0, 2 * pi);
-  FloatImage heights(kSide, kSide, 1);
+  FloatImage heights(side_length, side_length, 1);
   for (int u = -24; u <= 24; ++u) {
     for (int v = 0; v <= 24; ++v) {
       const double frequency = std::hypot(u, v), start = phase(random);
       if (frequency < 2) continue;
       const double amplitude = 24 / std::pow(frequency, 1.9);
-      for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x)
+      for (int y = 0; y < side_length; ++y)
+        for (int x = 0; x < side_length; ++x)
           heights.texel(x, y)[0] +=
-              static_cast<float>(amplitude * std::cos(2 * pi * (u * x + v * y) / kSide + start));
+              static_cast<float>(amplitude * std::cos(2 * pi * (u * x + v * y) / side_length + start));
     }
   }
   return heights;
@@ -100,9 +100,9 @@ FloatImage scaled(FloatImage heights, float factor) {
   return heights;
 }
 
-/// Means over squares, so that the smaller side has kSide texels or a little more.
+/// Means over squares, so that the smaller side has side_length texels or a little more.
 FloatImage reduced(const FloatImage& image) {
-  const int by = std::max(1, std::min(image.width(), image.height()) / kSide);
+  const int by = std::max(1, std::min(image.width(), image.height()) / side_length);
   FloatImage result(image.width() / by, image.height() / by, image.channels());
   const float share = 1 / static_cast<float>(by * by);
   for (int y = 0; y < result.height() * by; ++y) {
@@ -214,7 +214,7 @@ std::string cells(const Score& score) {
                      score.rmse(&Score::error_soft), score.rmse(&Score::error_hard));
 }
 
-constexpr const char* kHead =
+constexpr const char* head =
     "in shadow % | right % | found % | wrongly % | correlation | RMSE unshadowed | soft | hard |\n";
 
 /// All directions of one case; one score for each elevation.
@@ -223,13 +223,13 @@ class Comparison {
   Comparison(const Case& shape, NormalShadowOptions options)
       : shape_(shape), options_(options), rays_(shape.field) {}
 
-  std::array<Score, kElevations.size()> run() {
-    std::array<Score, kElevations.size()> scores;
-    for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
-      const double angle = 2 * pi * (azimuth + 0.3) / kAzimuths;  // off the axes and diagonals
+  std::array<Score, elevations.size()> run() {
+    std::array<Score, elevations.size()> scores;
+    for (int azimuth = 0; azimuth < azimuths; ++azimuth) {
+      const double angle = 2 * pi * (azimuth + 0.3) / azimuths;  // off the axes and diagonals
       const FloatImage horizon = horizon_of(angle);
-      for (std::size_t i = 0; i < kElevations.size(); ++i)
-        add(horizon, angle, kElevations[i] * pi / 180, scores[i]);
+      for (std::size_t i = 0; i < elevations.size(); ++i)
+        add(horizon, angle, elevations[i] * pi / 180, scores[i]);
     }
     return scores;
   }
@@ -243,7 +243,7 @@ class Comparison {
  private:
   [[nodiscard]] FloatImage horizon_of(double angle) const {
     const Vec2 towards(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
-    const double floor = std::tan(kElevations[0] * pi / 180) * 0.99;
+    const double floor = std::tan(elevations[0] * pi / 180) * 0.99;
     FloatImage horizon(shape_.field.width(), shape_.field.height(), 1);
     for (int y = 0; y < horizon.height(); ++y)
       for (int x = 0; x < horizon.width(); ++x)
@@ -307,15 +307,14 @@ double slope_rms(const Case& one) {
 }
 
 void write_cases(const std::vector<Case>& cases) {
-  std::cout << "| surface | slope RMS | curl | " << kHead
-            << "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::cout << "| surface | slope RMS | curl | " << head << "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Case& one : cases) {
     std::cout << fmt::format("| {} | {:.2f} | {:.2f} | ", one.name, slope_rms(one),
                              slope_curl(one.walked, {.scale = 4}).relative)
               << cells(Comparison(one, {}).sum()) << "\n"
               << std::flush;
   }
-  std::cout << "\nThe same with `--true-slopes`:\n\n| surface | " << kHead
+  std::cout << "\nThe same with `--true-slopes`:\n\n| surface | " << head
             << "|---|---|---|---|---|---|---|---|---|\n";
   for (const Case& one : cases)
     std::cout << fmt::format("| {} | ", one.name) << cells(Comparison(one, {.true_slopes = true}).sum())
@@ -323,21 +322,21 @@ void write_cases(const std::vector<Case>& cases) {
 }
 
 void write_elevations(const std::vector<Case>& cases) {
-  std::array<Score, kElevations.size()> totals;
+  std::array<Score, elevations.size()> totals;
   for (const Case& one : cases) {
     const auto scores = Comparison(one, {}).run();
     for (std::size_t i = 0; i < totals.size(); ++i) totals[i] += scores[i];
   }
-  std::cout << "\n| light's elevation | " << kHead << "|---|---|---|---|---|---|---|---|---|\n";
+  std::cout << "\n| light's elevation | " << head << "|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < totals.size(); ++i)
-    std::cout << fmt::format("| {:g} degrees | ", kElevations[i]) << cells(totals[i]) << "\n";
+    std::cout << fmt::format("| {:g} degrees | ", elevations[i]) << cells(totals[i]) << "\n";
 }
 
 void write_variants(const Case& shape) {
   const auto row = [](const std::string& name, const Case& one, const NormalShadowOptions& options) {
     std::cout << fmt::format("| {} | ", name) << cells(Comparison(one, options).sum()) << "\n" << std::flush;
   };
-  std::cout << fmt::format("\n| {} | ", shape.name) << kHead << "|---|---|---|---|---|---|---|---|---|\n";
+  std::cout << fmt::format("\n| {} | ", shape.name) << head << "|---|---|---|---|---|---|---|---|---|\n";
   row("as published", shape, {});
   row("jitter", shape, {.jitter = 1});
   row("steps 8", shape, {.steps = 8});

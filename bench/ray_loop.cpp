@@ -13,18 +13,18 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kLanes = 8;
-constexpr float kLift = 1.0F / 1024;  // texels that rays begin over the surface
-constexpr float kFar = std::numeric_limits<float>::infinity();
-constexpr std::size_t kChannels = SsbumpWeights::channels;
+constexpr int lanes = 8;
+constexpr float lift = 1.0F / 1024;  // texels that rays begin over the surface
+constexpr float far = std::numeric_limits<float>::infinity();
+constexpr std::size_t channel_count = SsbumpWeights::channels;
 
 void aim(RTCRay8& query, const Vec3& direction) {
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < lanes; ++lane) {
     query.dir_x[lane] = direction.x;
     query.dir_y[lane] = direction.y;
     query.dir_z[lane] = direction.z;
     query.tnear[lane] = query.time[lane] = 0;
-    query.tfar[lane] = kFar;
+    query.tfar[lane] = far;
     query.mask[lane] = all_rays;
     query.flags[lane] = 0;
   }
@@ -36,35 +36,35 @@ void aim(RTCRay8& query, const Vec3& direction) {
 struct RayLoop::Square {
   static constexpr int texels = tile * tile;
   std::array<float, texels> x, y, z;
-  std::array<std::array<float, texels>, kChannels> seen{};
+  std::array<std::array<float, texels>, channel_count> seen{};
 
   void trace_eights(RTCScene scene, const WeightedRay& ray) {
-    alignas(32) static constexpr std::array<int, kLanes> all{-1, -1, -1, -1, -1, -1, -1, -1};
+    alignas(32) static constexpr std::array<int, lanes> all{-1, -1, -1, -1, -1, -1, -1, -1};
     RTCRay8 query;
-    for (int first = 0; first < texels; first += kLanes) {
+    for (int first = 0; first < texels; first += lanes) {
       aim(query, ray.direction);
       const auto at = static_cast<std::size_t>(first);
-      std::copy_n(&x[at], kLanes, query.org_x);
-      std::copy_n(&y[at], kLanes, query.org_y);
-      std::copy_n(&z[at], kLanes, query.org_z);
+      std::copy_n(&x[at], lanes, query.org_x);
+      std::copy_n(&y[at], lanes, query.org_y);
+      std::copy_n(&z[at], lanes, query.org_z);
       embree_occluded8(all.data(), scene, query);
-      for (std::size_t c = 0; c < kChannels; ++c) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
+      for (std::size_t c = 0; c < channel_count; ++c) {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
           seen[c][at + lane] += query.tfar[lane] > 0 ? ray.weight[c] : 0.0F;
       }
     }
   }
 
   void trace_ones(RTCScene scene, const WeightedRay& ray) {
-    RTCRay query = embree_ray(Vec3(0), ray.direction, kFar);
+    RTCRay query = embree_ray(Vec3(0), ray.direction, far);
     for (std::size_t i = 0; i < texels; ++i) {
       query.org_x = x[i];
       query.org_y = y[i];
       query.org_z = z[i];
-      query.tfar = kFar;
+      query.tfar = far;
       embree_occluded(scene, query);
       if (query.tfar < 0) continue;
-      for (std::size_t c = 0; c < kChannels; ++c) seen[c][i] += ray.weight[c];
+      for (std::size_t c = 0; c < channel_count; ++c) seen[c][i] += ray.weight[c];
     }
   }
 };
@@ -114,17 +114,17 @@ void RayLoop::trace_square(int x, int y, const HemisphereRays& rays, Packet pack
     const auto at = static_cast<std::size_t>(i);
     square.x[at] = from.x;
     square.y[at] = from.y;
-    square.z[at] = from.z + kLift;
+    square.z[at] = from.z + lift;
   }
-  std::array<float, kChannels> whole{};
+  std::array<float, channel_count> whole{};
   for (const WeightedRay& ray : rays.set(number)) {
-    for (std::size_t c = 0; c < kChannels; ++c) whole[c] += ray.weight[c];
+    for (std::size_t c = 0; c < channel_count; ++c) whole[c] += ray.weight[c];
     packet == Packet::eight ? square.trace_eights(embree_.scene(), ray)
                             : square.trace_ones(embree_.scene(), ray);
   }
   for (int i = 0; i < Square::texels; ++i) {
     const auto texel = weights.image.texel(column * tile + i % tile, row * tile + i / tile);
-    for (std::size_t c = 0; c < kChannels; ++c)
+    for (std::size_t c = 0; c < channel_count; ++c)
       texel[c] = square.seen[c][static_cast<std::size_t>(i)] / whole[c];
   }
 }
@@ -135,18 +135,18 @@ void RayLoop::trace_row(int tile_row, const HemisphereRays& rays, Packet packet,
                     [&](int column) { trace_square(column * tile, tile_row * tile, rays, packet, weights); });
 }
 
-std::array<double, kChannels> RayLoop::texel(int x, int y, const std::vector<WeightedRay>& rays) const {
-  const Vec3 from = origin(x, y) + Vec3(0, 0, kLift);
-  std::array<double, kChannels> seen{}, whole{};
+std::array<double, channel_count> RayLoop::texel(int x, int y, const std::vector<WeightedRay>& rays) const {
+  const Vec3 from = origin(x, y) + Vec3(0, 0, lift);
+  std::array<double, channel_count> seen{}, whole{};
   for (const WeightedRay& ray : rays) {
-    RTCRay query = embree_ray(from, ray.direction, kFar);
+    RTCRay query = embree_ray(from, ray.direction, far);
     embree_occluded(embree_.scene(), query);
-    for (std::size_t c = 0; c < kChannels; ++c) {
+    for (std::size_t c = 0; c < channel_count; ++c) {
       whole[c] += double{ray.weight[c]};
       if (query.tfar > 0) seen[c] += double{ray.weight[c]};
     }
   }
-  for (std::size_t c = 0; c < kChannels; ++c) seen[c] /= whole[c];
+  for (std::size_t c = 0; c < channel_count; ++c) seen[c] /= whole[c];
   return seen;
 }
 

@@ -28,13 +28,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kRuns = 7;
-constexpr float kRange = 32, kEdgeShare = 0.03F;  // heights; of them, as in the command
-constexpr int kAzimuthsOfSides = 64;
-constexpr int kMargin = 256;  // past which rays of the loop meet nothing
-constexpr int kPart = 16;     // of the loop's rows are traced to choose how to go on
-constexpr std::uint64_t kSeedOfLoop = 1, kSeedOfTruth = 2;
-constexpr int kAzimuthsOfTruth = 2048;
+constexpr int run_count = 7;
+constexpr float range = 32, edge_share = 0.03F;  // heights; of them, as in the command
+constexpr int azimuths_of_sides = 64;
+constexpr int margin = 256;  // past which rays of the loop meet nothing
+constexpr int part = 16;     // of the loop's rows are traced to choose how to go on
+constexpr std::uint64_t seed_of_loop = 1, seed_of_truth = 2;
+constexpr int azimuths_of_truth = 2048;
 
 struct Arguments {
   int side = 1024, threads = 2, rays = 256, samples = 200, truth_rays = 65536;
@@ -81,13 +81,13 @@ struct Truths {
 
 Truths truths_of(const HeightField& field, const Arguments& arguments) {
   const std::vector<Texel> samples = spread_texels(arguments.side, arguments.side, arguments.samples);
-  const HemisphereRays rays(arguments.truth_rays, 1, kSeedOfTruth);
-  return {samples, by_rays(field, samples, rays.set(0)), by_horizons(field, samples, kAzimuthsOfTruth)};
+  const HemisphereRays rays(arguments.truth_rays, 1, seed_of_truth);
+  return {samples, by_rays(field, samples, rays.set(0)), by_horizons(field, samples, azimuths_of_truth)};
 }
 
 json measure_sweep(const HeightField& field, const Truths& truths, GenerateOptions options) {
   SsbumpWeights weights;
-  json result{{"time", best_of(kRuns, [&] { weights = generate(field, options); })}};
+  json result{{"time", best_of(run_count, [&] { weights = generate(field, options); })}};
   result["azimuths"] = weights.azimuths;
   const std::vector<Channels> found = picked(weights, truths.samples);
   result["error"] = errors(found, truths.by_rays);
@@ -100,27 +100,27 @@ json measure_instructions(const HeightField& field, const GenerateOptions& optio
   const std::vector<std::string> all = sweep_instructions();
   for (const std::string& name : all) {
     use_sweep_instructions(name);
-    result[name] = best_of(kRuns, [&] { static_cast<void>(generate(field, options)); });
+    result[name] = best_of(run_count, [&] { static_cast<void>(generate(field, options)); });
   }
   use_sweep_instructions(all.front());
   return result;
 }
 
 json measure_sides(const Arguments& arguments, GenerateOptions options) {
-  options.azimuths = kAzimuthsOfSides;  // the same for all
+  options.azimuths = azimuths_of_sides;  // the same for all
   json rows = json::array();
   for (const int side : arguments.sides) {
-    const HeightField field = cobbles(side, kRange);
+    const HeightField field = cobbles(side, range);
     const Time time =
-        best_of(kRuns, [&] { generate_rows(field, options, [](int, const SsbumpWeights&) {}); });
+        best_of(run_count, [&] { generate_rows(field, options, [](int, const SsbumpWeights&) {}); });
     rows.push_back({{"side", side}, {"time", time}});
   }
   return rows;
 }
 
 json measure_filter(const HeightField& field, int threads) {
-  const BilateralOptions options{.edge = kEdgeShare * kRange, .threads = threads};
-  const Time time = best_of(kRuns, [&] { static_cast<void>(bilateral(field, options)); });
+  const BilateralOptions options{.edge = edge_share * range, .threads = threads};
+  const Time time = best_of(run_count, [&] { static_cast<void>(bilateral(field, options)); });
   return {{"radius", options.radius}, {"time", time}};
 }
 
@@ -138,12 +138,12 @@ Time time_loop(const RayLoop& loop, const HemisphereRays& rays, RayLoop::Packet 
 
 json measure_loop(const HeightField& field, const Truths& truths, const Arguments& arguments) {
   const double start = steady_clock().now();
-  const RayLoop loop(field, kMargin);
+  const RayLoop loop(field, margin);
   json result{{"rays", arguments.rays}, {"build_seconds", steady_clock().now() - start}};
-  const HemisphereRays rays(arguments.rays, 1, kSeedOfLoop);
+  const HemisphereRays rays(arguments.rays, 1, seed_of_loop);
   SsbumpWeights weights{FloatImage(field.width(), field.height(), SsbumpWeights::channels)};
 
-  const int step = std::min(kPart, loop.tile_rows());
+  const int step = std::min(part, loop.tile_rows());
   const Time ones = time_loop(loop, rays, RayLoop::Packet::one, step, weights);
   const Time eights = time_loop(loop, rays, RayLoop::Packet::eight, step, weights);
   const bool single = ones.cpu_seconds < eights.cpu_seconds;
@@ -159,7 +159,7 @@ json measure_loop(const HeightField& field, const Truths& truths, const Argument
   if (!whole) {  // samples lie in any row
     for (const Texel& texel : truths.samples) loop.trace_square(texel.x, texel.y, rays, packet, weights);
   }
-  const HemisphereRays many(arguments.truth_rays, 1, kSeedOfTruth);
+  const HemisphereRays many(arguments.truth_rays, 1, seed_of_truth);
   const auto own =
       for_each(truths.samples, [&](Texel texel) { return loop.texel(texel.x, texel.y, many.set(0)); });
   const std::vector<Channels> found = picked(weights, truths.samples);
@@ -172,7 +172,7 @@ json measure_loop(const HeightField& field, const Truths& truths, const Argument
 json measure(const Arguments& arguments) {
   GenerateOptions options;
   options.threads = arguments.threads;
-  const HeightField field = cobbles(arguments.side, kRange);
+  const HeightField field = cobbles(arguments.side, range);
   const Truths truths = truths_of(field, arguments);
   json result{{"side", arguments.side},
               {"threads", arguments.threads},

@@ -27,8 +27,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr int kTexels = 96, kInTheMiddle = 12, kFirstColumn = 122;  // one of those in each of the columns
-constexpr std::uint64_t kSeed = 2;
+constexpr int texel_count = 96, in_the_middle = 12,
+              first_column = 122;  // one of those in each of the columns
+constexpr std::uint64_t seed = 2;
 
 struct Arguments {
   std::vector<std::string> settings{"default", "128/16"};
@@ -56,8 +57,8 @@ Setting parse_setting(const std::string& text) {
 }
 
 std::vector<Texel> texels_of(const HeightField& field) {
-  std::vector<Texel> texels = spread_texels(field.width(), field.height(), kTexels);
-  for (int i = 0; i < kInTheMiddle; ++i) texels[static_cast<std::size_t>(i)].x = kFirstColumn + i;
+  std::vector<Texel> texels = spread_texels(field.width(), field.height(), texel_count);
+  for (int i = 0; i < in_the_middle; ++i) texels[static_cast<std::size_t>(i)].x = first_column + i;
   return texels;
 }
 
@@ -132,7 +133,7 @@ class Measurement {
   void against_rays(const SsbumpMap& map) const {
     const HeightField field = scaled(map, WrapMode::wrap, 1);
     const std::vector<Texel> texels = texels_of(field);
-    const HemisphereRays rays(arguments_.rays, 1, kSeed);
+    const HemisphereRays rays(arguments_.rays, 1, seed);
     const std::vector<Channels> truth = by_rays(field, texels, rays.set(0));
     const WeightErrors apart = errors_of(truth, by_horizons(field, texels, arguments_.azimuths));
     measure({{"part", "rays"}, {"map", map.name}, {"truths_apart", as_json(apart)}}, field, texels, truth);

@@ -12,7 +12,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSide = 256, kMiddle = kSide / 2;
+constexpr int side_length = 256, centre = side_length / 2;
 
 /// Where on the great circle across `normal` all other half-spaces are open: its length. Each leaves half of
 /// the circle, so that what is left is one arc.
@@ -24,10 +24,10 @@ double arc_within(const Vec3d& normal, const std::vector<Vec3d>& planes) {
   for (const Vec3d& plane : planes) {
     const double along_u = plane.dot(u), along_v = plane.dot(v);
     if (std::hypot(along_u, along_v) < 1e-12) continue;  // the same plane
-    const double centre = std::atan2(along_v, along_u);
-    if (first) middle = centre;
+    const double azimuth = std::atan2(along_v, along_u);
+    if (first) middle = azimuth;
     first = false;
-    const double turn = std::remainder(centre - middle, 2 * pi);
+    const double turn = std::remainder(azimuth - middle, 2 * pi);
     before = std::min(before, pi / 2 - turn);
     after = std::min(after, pi / 2 + turn);
   }
@@ -64,14 +64,14 @@ Channels weights_over(const std::vector<Imath::V2d>& slopes) {
 /// Heights by the distance from the middle.
 template <typename Function>
 HeightField surface(const Function& height) {
-  return field_of(kSide, kSide, WrapMode::none,
-                  [&](int x, int y) { return height(x - kMiddle, y - kMiddle); });
+  return field_of(side_length, side_length, WrapMode::none,
+                  [&](int x, int y) { return height(x - centre, y - centre); });
 }
 
 }  // namespace
 
 std::vector<ClosedForm> closed_forms() {
-  constexpr Texel middle{kMiddle, kMiddle};
+  constexpr Texel middle{centre, centre};
   constexpr double wall = 16;
   std::vector<ClosedForm> forms;
   for (const double s : {0.25, 1.0, 4.0}) {
@@ -90,7 +90,7 @@ std::vector<ClosedForm> closed_forms() {
   for (const int distance : {1, 2, 4, 16, 64})
     forms.push_back({fmt::format("{} before a step of 16", distance),
                      step,
-                     {kMiddle - distance, kMiddle},
+                     {centre - distance, centre},
                      weights_over({{wall / distance, 0}})});
   forms.push_back({"edge of a step of 16", step, middle, weights_over({})});
   forms.push_back({"top of a hemisphere, radius 64", surface([](int x, int y) {

@@ -10,14 +10,14 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSide = 256, kMiddle = kSide / 2;
-constexpr double kDepth = 32;  // of real ones, black to white
+constexpr int side_length = 256, centre = side_length / 2;
+constexpr double full_height = 32;  // of real ones, black to white
 
 template <typename Function>
 SsbumpMap map_of(std::string name, const Function& height) {
-  SsbumpMap map{std::move(name), FloatImage(kSide, kSide, 1)};
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) map.heights.texel(x, y)[0] = static_cast<float>(height(x, y));
+  SsbumpMap map{std::move(name), FloatImage(side_length, side_length, 1)};
+  for (int y = 0; y < side_length; ++y)
+    for (int x = 0; x < side_length; ++x) map.heights.texel(x, y)[0] = static_cast<float>(height(x, y));
   return map;
 }
 
@@ -39,9 +39,9 @@ SsbumpMap real_map(std::string name, const std::filesystem::path& file, const st
   HeightOptions options;
   options.channel = channel;
   options.invert = depths;
-  options.texels = kDepth;
+  options.texels = full_height;
   const FloatImage heights = read_heights(file, options).field.heights;
-  const double side = double(std::min(heights.width(), heights.height())) / kSide;
+  const double side = double(std::min(heights.width(), heights.height())) / side_length;
   return map_of(std::move(name), [&](int x, int y) { return mean(heights, x * side, y * side, side); });
 }
 
@@ -55,15 +55,15 @@ std::vector<SsbumpMap> generated_maps() {
       map_of("tilt of 1/4 across, 1/8 down", [](int x, int y) { return 0.25 * x + 0.125 * y; }),
       map_of("hemisphere, radius 64",
              [](int x, int y) {
-               const int u = x - kMiddle, v = y - kMiddle;
+               const int u = x - centre, v = y - centre;
                return std::sqrt(std::max(0.0, radius * radius - u * u - v * v));
              }),
-      map_of("V-groove, slope 1", [](int x, int) { return std::abs(x - kMiddle); }),
-      map_of("step of 16 texels", [](int x, int) { return x < kMiddle ? 0 : 16; }),
+      map_of("V-groove, slope 1", [](int x, int) { return std::abs(x - centre); }),
+      map_of("step of 16 texels", [](int x, int) { return x < centre ? 0 : 16; }),
       map_of("two sinusoids, together of 16 texels", [&](int x, int y) { return wave(x) + wave(y); }),
-      map_of("fractal noise, range 48", [](int x, int y) { return 48 * fractal_noise(x, y, kSide); }),
+      map_of("fractal noise, range 48", [](int x, int y) { return 48 * fractal_noise(x, y, side_length); }),
       map_of("hard steps of 6 texels",
-             [](int x, int y) { return 6 * std::floor(8 * fractal_noise(x, y, kSide)); }),
+             [](int x, int y) { return 6 * std::floor(8 * fractal_noise(x, y, side_length)); }),
   };
 }
 

@@ -3,8 +3,12 @@
 # A room that generates sources does so in src/NAME/room.cmake, which may append to ROOM_SOURCES.
 
 add_library(rnm_warnings INTERFACE)
-target_compile_options(rnm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                                              -Wno-sign-conversion -Wnon-virtual-dtor)
+target_compile_options(rnm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+if(CMAKE_UNITY_BUILD) # these two would speak of names that another file of the same batch has
+  target_compile_options(rnm_warnings INTERFACE -Wno-subobject-linkage)
+else()
+  target_compile_options(rnm_warnings INTERFACE -Wshadow)
+endif()
 if(RNMBAKE_WERROR)
   target_compile_options(rnm_warnings INTERFACE -Werror)
 endif()

@@ -1,6 +1,7 @@
 // base/math.h - the vector types that every room shares (Imath's).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <ImathMatrix.h>
@@ -18,6 +19,17 @@ using Mat44 = Imath::M44d;
 /// floats.
 [[nodiscard]] inline Vec3 unit(const Vec3& v) {
   return v * (1 / std::sqrt(v.dot(v)));
+}
+
+/// The greatest of a colour's three channels.
+[[nodiscard]] inline float max_channel(const Vec3& colour) {
+  return std::max({colour.x, colour.y, colour.z});
+}
+
+/// The mean of the magnitudes of a colour's channels: how strong a light is for those who choose between
+/// lights. Never negative, so that light of negative colours is still chosen.
+[[nodiscard]] inline float mean_magnitude(const Vec3& colour) {
+  return (std::abs(colour.x) + std::abs(colour.y) + std::abs(colour.z)) / 3;
 }
 
 inline constexpr double pi = 3.14159265358979323846;

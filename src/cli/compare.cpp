@@ -23,7 +23,7 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct CompareFlags {
   CompareOptions compare;
   std::vector<std::string> objects;
   std::filesystem::path output;
@@ -31,7 +31,7 @@ struct Options {
   bool json = false;
 };
 
-std::string command_of(const Options& options) {
+std::string command_of(const CompareFlags& options) {
   std::string line = "rnmbake compare";
   const auto add = [&](const char* flag, const std::string& value) {
     if (!value.empty()) line += fmt::format(" {}{}", flag, shell_word(value));
@@ -57,7 +57,7 @@ void say_what_is_lost(const Report& report) {
   }
 }
 
-int run(Options options) {
+int run_compare(CompareFlags options) {
   std::vector<Threshold> thresholds;
   if (!options.fail_above.empty()) thresholds = parse_thresholds(options.fail_above);
   if (!options.objects.empty()) options.compare.objects = options.objects;
@@ -77,7 +77,7 @@ int run(Options options) {
   return static_cast<int>(report.thresholds.exceeded.empty() ? ExitCode::ok : ExitCode::threshold_exceeded);
 }
 
-void add_sides(CLI::App& command, Options& options) {
+void add_sides(CLI::App& command, CompareFlags& options) {
   command
       .add_option("a", options.compare.candidate.path,
                   "what is judged: output folder, or one lightmap (.exr)")
@@ -93,7 +93,7 @@ void add_sides(CLI::App& command, Options& options) {
   command.add_option("--second-b", options.compare.reference.second, "B again, likewise")->type_name("B2");
 }
 
-void add_scope(CLI::App& command, Options& options) {
+void add_scope(CLI::App& command, CompareFlags& options) {
   command
       .add_option("--objects", options.objects,
                   "compare objects whose key fits this pattern (* ? []) only; may be given again")
@@ -107,7 +107,7 @@ void add_scope(CLI::App& command, Options& options) {
       ->type_name("SHARE");
 }
 
-void add_results(CLI::App& command, Options& options) {
+void add_results(CLI::App& command, CompareFlags& options) {
   command.add_option("-o,--output", options.output, "write report.html, report.json and report.csv there")
       ->type_name("DIR");
   command
@@ -121,13 +121,13 @@ void add_results(CLI::App& command, Options& options) {
 }  // namespace
 
 std::function<int()> add_compare_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareFlags>();
   CLI::App* command =
       app.add_subcommand("compare", "How far two sets of lightmaps are from each other, noise taken out");
   add_sides(*command, *options);
   add_scope(*command, *options);
   add_results(*command, *options);
-  return [options] { return run(*options); };
+  return [options] { return run_compare(*options); };
 }
 
 }  // namespace rnmbake

@@ -144,7 +144,7 @@ void check_options(DecodeOptions& options) {
   if (options.flip_green) options.normal_green = "y-down";
 }
 
-int run(DecodeOptions options) {
+int run_decode(DecodeOptions options) {
   check_options(options);
   const LayeredImage image = read_image(options.lightmap);
   const LightmapMetadata metadata = metadata_of(options, image);
@@ -220,7 +220,7 @@ std::function<int()> add_decode_command(CLI::App& app) {
   command->add_option("--exposure", options->exposure, "multiply the result by 2^STOPS [0]")
       ->type_name("STOPS");
   command->add_flag("--force", options->force, "decode although the header says that the maps do not fit");
-  return [options] { return run(*options); };
+  return [options] { return run_decode(*options); };
 }
 
 }  // namespace rnmbake

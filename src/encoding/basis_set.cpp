@@ -13,10 +13,10 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kTolerance = 1e-3F;
+constexpr float tolerance = 1e-3F;
 
 bool is_near(const Vec3& a, const Vec3& b) {
-  return (a - b).length() < kTolerance;
+  return (a - b).length() < tolerance;
 }
 
 void check_name(const BasisSet& set, std::size_t at) {
@@ -59,7 +59,7 @@ void check_direction(const BasisSet& set, const BasisDirection& basis) {
          set.name, name, v.dot(rnm_basis()[1]));
   }
   const float length = v.length();
-  if (std::abs(length - 1) > kTolerance) {
+  if (std::abs(length - 1) > tolerance) {
     fail(ExitCode::invalid_input, "{}: direction of basis '{}' has length {:.6f}; scale it to length 1",
          set.name, name, length);
   }

@@ -64,9 +64,9 @@ std::vector<float> interleaved_rows(const LayeredImage& image, std::size_t chann
 }
 
 bool write_rows(OIIO::ImageOutput& out, const LayeredImage& image, const OIIO::ImageSpec& spec) {
-  constexpr int kRows = 64;  // whole zip blocks, and little memory beside the image
-  for (int y = 0; y < spec.height; y += kRows) {
-    const int end = std::min(y + kRows, spec.height);
+  constexpr int rows_at_once = 64;  // whole zip blocks, and little memory beside the image
+  for (int y = 0; y < spec.height; y += rows_at_once) {
+    const int end = std::min(y + rows_at_once, spec.height);
     const auto rows = interleaved_rows(image, static_cast<std::size_t>(spec.nchannels), y, end);
     if (!out.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, rows.data())) return false;
   }

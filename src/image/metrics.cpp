@@ -11,15 +11,15 @@
 namespace rnmbake {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kLargestTile = 8;
-constexpr double kFewestTiles = 16;
-constexpr double kFewPaths = 4;       // that make up the noise of a mean: too few to tell it
-constexpr double kSmallMove = 0.003;  // of a mean: what a path that moves it by less does matters to nobody
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int largest_tile = 8;
+constexpr double fewest_tiles = 16;
+constexpr double few_paths = 4;       // that make up the noise of a mean: too few to tell it
+constexpr double small_move = 0.003;  // of a mean: what a path that moves it by less does matters to nobody
 
 int tile_size(const FloatImage& image) {
-  const auto size = static_cast<int>(std::sqrt(double(image.texels()) / kFewestTiles));
-  return std::clamp(size, 1, kLargestTile);
+  const auto size = static_cast<int>(std::sqrt(double(image.texels()) / fewest_tiles));
+  return std::clamp(size, 1, largest_tile);
 }
 
 void check_sizes(const FloatImage& picture, const FloatImage* other, bool channels_too) {
@@ -199,8 +199,8 @@ PictureMetrics PictureComparison::metrics() const {
   result.bias = with_rare_path(reach, down, up);
   result.relative_bias = with_rare_path(jackknife(sum, relative_bias), down * share, up * share);
   const double rare = std::max(down, up);
-  result.too_noisy = rare > kSmallMove * std::abs(result.reference_mean) &&
-                     kFewPaths * rare * rare > reach.standard_error * reach.standard_error;
+  result.too_noisy = rare > small_move * std::abs(result.reference_mean) &&
+                     few_paths * rare * rare > reach.standard_error * reach.standard_error;
   // A mean that a rare path may have moved so far is in the mean square, too.
   const double moved = least_square(with_rare_path(reach, 0, 0)) - least_square(result.bias);
   const double low = moved + rare_.squared / sum.values;
@@ -226,7 +226,7 @@ PictureComparison::Reach PictureComparison::jackknife(
     const Tile& sum, const std::function<double(const Tile&)>& estimate) const {
   const double value = estimate(sum);
   const double n = double(tiles_.size());
-  if (tiles_.size() < 2) return {value, kInfinite, 1};
+  if (tiles_.size() < 2) return {value, infinity, 1};
   RunningMoments<double> moments;
   double count = 0;
   for (const Tile& tile : tiles_) moments.add(estimate(sum - tile), ++count);
@@ -238,7 +238,7 @@ Statistic PictureComparison::with_rare_path(const Reach& reach, double down, dou
     return rare + reach.quantile * std::sqrt(sum_of_squares(reach.standard_error, rare));
   };
   const double low = width(down), high = width(up);
-  if (!std::isfinite(low + high)) return {reach.value, -kInfinite, kInfinite};
+  if (!std::isfinite(low + high)) return {reach.value, -infinity, infinity};
   return {reach.value, reach.value - low, reach.value + high};
 }
 

@@ -10,7 +10,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr OIIO::imagesize_t kMostBytes = 64ULL << 30;  // a header that promises more is taken as damaged
+constexpr OIIO::imagesize_t most_bytes = 64ULL << 30;  // a header that promises more is taken as damaged
 
 std::optional<Attribute> attribute_of(const OIIO::ParamValue& value) {
   const OIIO::TypeDesc type = value.type();
@@ -59,7 +59,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path& file
   const OIIO::ImageSpec& spec = in->spec();
   if (spec.deep) fail(ExitCode::unsupported, "{} is a deep image; flatten it first", file.string());
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
-      spec.image_pixels() > kMostBytes / sizeof(float) / static_cast<unsigned>(spec.nchannels)) {
+      spec.image_pixels() > most_bytes / sizeof(float) / static_cast<unsigned>(spec.nchannels)) {
     fail_damaged(file, fmt::format("its header promises {}x{}x{} texels of {} channels", spec.width,
                                    spec.height, spec.depth, spec.nchannels));
   }

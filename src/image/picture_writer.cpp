@@ -22,7 +22,7 @@ struct Format {
   std::string_view ending;
   std::array<bool, 4> holds;  // by Storage
 };
-constexpr std::array kFormats{
+constexpr std::array formats{
     Format{".png", {true, true, false, false}}, Format{".tga", {true, false, false, false}},
     Format{".tif", {true, true, true, true}}, Format{".tiff", {true, true, true, true}},
     Format{".exr", {false, false, true, true}}};
@@ -98,14 +98,14 @@ class FileProxy : public OIIO::Filesystem::IOProxy {
 
 std::string storage_obstacle(const std::filesystem::path& file, Storage storage) {
   const std::string ending = lower_extension(file);
-  const auto* format = std::ranges::find(kFormats, ending, &Format::ending);
+  const auto* format = std::ranges::find(formats, ending, &Format::ending);
   const auto at = static_cast<std::size_t>(storage);
-  if (format != kFormats.end() && format->holds[at]) return "";
+  if (format != formats.end() && format->holds[at]) return "";
   constexpr std::array words{"8-bit", "16-bit", "half", "float"};
   std::string fit;
-  for (const Format& other : kFormats)
+  for (const Format& other : formats)
     if (other.holds[at]) fit += fmt::format("{}{}", fit.empty() ? "" : ", ", other.ending);
-  if (format == kFormats.end())
+  if (format == formats.end())
     return fmt::format("the ending '{}' is no format that it writes; use one of {}", ending, fit);
   return fmt::format("{} holds no {} values; use one of {}", ending, words[at], fit);
 }

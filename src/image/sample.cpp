@@ -8,7 +8,7 @@ namespace rnmbake {
 namespace {
 
 /// UVs are floats: at 8192 texels a centre is off by up to 3e-4 texels. Graphics cards round to 1/256.
-constexpr double kSnap = 1e-3;
+constexpr double snap = 1e-3;
 
 /// Texel before and after a position along one axis, and the second one's weight.
 struct Span {
@@ -21,8 +21,8 @@ Span span_at(double position, int size, Border border) {
   if (border == Border::clamp) position = std::clamp(position, -1.0, double(size));
   if (border == Border::wrap) position -= size * std::floor(position / size);
   double whole = std::floor(position), part = position - whole;
-  if (part > 1 - kSnap) whole += 1;
-  if (part < kSnap || part > 1 - kSnap) part = 0;
+  if (part > 1 - snap) whole += 1;
+  if (part < snap || part > 1 - snap) part = 0;
   const int i = static_cast<int>(whole);
   return {texel_within(i, size, border), texel_within(i + 1, size, border), static_cast<float>(part)};
 }

@@ -7,7 +7,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr const char* kHeader =
+constexpr const char* header =
     "object,basis,texels,non_finite,reference_mean,bias,bias_low95,bias_high95,relative_bias,"
     "relative_bias_low95,relative_bias_high95,rmse,rmse_low95,rmse_high95,relative_rmse,relative_rmse_low95,"
     "relative_rmse_high95,p95,p99,max,max_x,max_y,candidate_noise,reference_noise,"
@@ -41,7 +41,7 @@ std::string line(const std::string& object, const BasisMetrics& basis) {
 }  // namespace
 
 std::string to_csv(const Report& report) {
-  std::string text = kHeader;
+  std::string text = header;
   for (const ObjectComparison& object : report.objects)
     for (const BasisMetrics& basis : object.bases) text += line(object.key, basis);
   for (const BasisMetrics& basis : report.scene) text += line("(scene)", basis);

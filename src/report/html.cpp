@@ -14,8 +14,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr int kNoiseBits = 5;  // 1.6 %: a standard error need not be known better
-constexpr int kSmallestMap = 8;
+constexpr int noise_bits = 5;  // 1.6 %: a standard error need not be known better
+constexpr int smallest_map = 8;
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -102,8 +102,8 @@ json add_maps(const Report& report, const Limits& limits, Blobs& blobs) {
       Bundle bundle;
       bundle.add("candidate", maps.candidate, limit, 10);
       bundle.add("reference", maps.reference, limit, 10);
-      bundle.add("candidate_noise", maps.candidate_noise, limit, kNoiseBits);
-      bundle.add("reference_noise", maps.reference_noise, limit, kNoiseBits);
+      bundle.add("candidate_noise", maps.candidate_noise, limit, noise_bits);
+      bundle.add("reference_noise", maps.reference_noise, limit, noise_bits);
       json entry = blobs.add(bundle);
       if (entry.is_null()) continue;
       entry["basis"] = maps.basis;
@@ -181,7 +181,7 @@ std::string to_html(const Report& report, const HtmlOptions& options) {
   int view_limit = options.largest_view;
   for (;;) {
     std::string page = page_with(report, limits, view_limit);
-    if (page.size() <= options.most_bytes || limits.others <= kSmallestMap) return page;
+    if (page.size() <= options.most_bytes || limits.others <= smallest_map) return page;
     if (limits.others == limits.first) {
       limits.others /= 2;
     } else {

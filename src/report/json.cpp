@@ -7,18 +7,18 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// Named before describe_all(), which must find them all.
-json describe(const ObjectComparison& object);
-json describe(const Decomposition& decomposition);
-json describe(const BasisDecomposition& basis);
-json describe(const DecompositionRow& row);
-json describe(const StudyPoint& point);
-json describe(const ViewComparison& view);
-json describe(const ViewPicture& picture);
-json describe(const Threshold& threshold);
-json describe(const Exceeded& exceeded);
+// Named before json_list(), which must find them all.
+json json_of(const ObjectComparison& object);
+json json_of(const Decomposition& decomposition);
+json json_of(const BasisDecomposition& basis);
+json json_of(const DecompositionRow& row);
+json json_of(const StudyPoint& point);
+json json_of(const ViewComparison& view);
+json json_of(const ViewPicture& picture);
+json json_of(const Threshold& threshold);
+json json_of(const Exceeded& exceeded);
 
-json describe(const Statistic& statistic) {
+json json_of(const Statistic& statistic) {
   return {{"value", statistic.value}, {"low95", statistic.low95}, {"high95", statistic.high95}};
 }
 
@@ -26,16 +26,16 @@ json noise(double value, bool known) {
   return known ? json(value) : json(nullptr);
 }
 
-json describe(const BasisMetrics& basis) {
+json json_of(const BasisMetrics& basis) {
   const PictureMetrics& m = basis.metrics;
   return {{"basis", basis.name},
           {"texels", m.texels},
           {"non_finite", m.non_finite},
           {"reference_mean", m.reference_mean},
-          {"bias", describe(m.bias)},
-          {"relative_bias", describe(m.relative_bias)},
-          {"rmse", describe(m.rmse)},
-          {"relative_rmse", describe(m.relative_rmse)},
+          {"bias", json_of(m.bias)},
+          {"relative_bias", json_of(m.relative_bias)},
+          {"rmse", json_of(m.rmse)},
+          {"relative_rmse", json_of(m.relative_rmse)},
           {"p95", m.p95},
           {"p99", m.p99},
           {"max", {{"error", m.max}, {"x", m.max_x}, {"y", m.max_y}}},
@@ -48,7 +48,7 @@ json describe(const BasisMetrics& basis) {
 json describe_scene(const Report& report) {
   json bases = json::array();
   for (const BasisMetrics& basis : report.scene) {
-    json entry = describe(basis);
+    json entry = json_of(basis);
     if (basis.metrics.max_picture < report.objects.size())
       entry["max"]["object"] = report.objects[basis.metrics.max_picture].key;
     bases.push_back(entry);
@@ -57,13 +57,13 @@ json describe_scene(const Report& report) {
 }
 
 template <typename Item>
-json describe_all(const std::vector<Item>& items) {
+json json_list(const std::vector<Item>& items) {
   json list = json::array();
-  for (const Item& item : items) list.push_back(describe(item));
+  for (const Item& item : items) list.push_back(json_of(item));
   return list;
 }
 
-json describe(const ObjectComparison& object) {
+json json_of(const ObjectComparison& object) {
   return {{"key", object.key},
           {"candidate_files", object.candidate_files},
           {"reference_files", object.reference_files},
@@ -71,43 +71,43 @@ json describe(const ObjectComparison& object) {
           {"height", object.height},
           {"coverage", object.coverage},
           {"validity", object.validity},
-          {"bases", describe_all(object.bases)},
+          {"bases", json_list(object.bases)},
           {"notes", object.notes},
           {"outside_model", object.outside_model}};
 }
 
-json describe(const DecompositionRow& row) {
+json json_of(const DecompositionRow& row) {
   return {{"name", row.name},
-          {"bias", describe(row.bias)},
-          {"relative_bias", describe(row.relative_bias)},
-          {"rmse", describe(row.rmse)},
-          {"relative_rmse", describe(row.relative_rmse)}};
+          {"bias", json_of(row.bias)},
+          {"relative_bias", json_of(row.relative_bias)},
+          {"rmse", json_of(row.rmse)},
+          {"relative_rmse", json_of(row.relative_rmse)}};
 }
 
-json describe(const BasisDecomposition& basis) {
+json json_of(const BasisDecomposition& basis) {
   return {{"basis", basis.basis},
           {"reference_mean", basis.reference_mean},
-          {"rows", describe_all(basis.rows)},
-          {"total", describe(basis.total)}};
+          {"rows", json_list(basis.rows)},
+          {"total", json_of(basis.total)}};
 }
 
-json describe(const Decomposition& decomposition) {
-  return {{"subject", decomposition.subject}, {"bases", describe_all(decomposition.bases)}};
+json json_of(const Decomposition& decomposition) {
+  return {{"subject", decomposition.subject}, {"bases", json_list(decomposition.bases)}};
 }
 
-json describe(const BounceLimit& limit) {
+json json_of(const BounceLimit& limit) {
   if (limit.bounces < 0) return nullptr;
-  return {{"bounces", limit.bounces}, {"relative_bias", describe(limit.relative_bias)}};
+  return {{"bounces", limit.bounces}, {"relative_bias", json_of(limit.relative_bias)}};
 }
 
-json describe(const StudyPoint& point) {
+json json_of(const StudyPoint& point) {
   return {{"name", point.name},
           {"targets", point.targets},
           {"seconds", point.seconds},
-          {"relative_rmse", describe(point.error)}};
+          {"relative_rmse", json_of(point.error)}};
 }
 
-json describe(const ViewPicture& picture) {
+json json_of(const ViewPicture& picture) {
   json entry{{"label", picture.label}};
   if (!picture.has_error) return entry;
   entry["rmse"] = picture.rmse;
@@ -117,16 +117,16 @@ json describe(const ViewPicture& picture) {
   return entry;
 }
 
-json describe(const ViewComparison& view) {
-  return {{"name", view.name}, {"pictures", describe_all(view.pictures)}};
+json json_of(const ViewComparison& view) {
+  return {{"name", view.name}, {"pictures", json_list(view.pictures)}};
 }
 
-json describe(const Threshold& threshold) {
+json json_of(const Threshold& threshold) {
   return {{"metric", threshold.metric}, {"limit", threshold.limit}, {"relative", threshold.relative}};
 }
 
-json describe(const Exceeded& exceeded) {
-  json entry = describe(exceeded.threshold);
+json json_of(const Exceeded& exceeded) {
+  json entry = json_of(exceeded.threshold);
   entry["object"] = exceeded.object;
   entry["basis"] = exceeded.basis;
   entry["value"] = exceeded.value;
@@ -134,7 +134,7 @@ json describe(const Exceeded& exceeded) {
 }
 
 /// Settings keep their order and may repeat, so they are pairs rather than an object.
-json describe(const KeyValues& values) {
+json json_of(const KeyValues& values) {
   json list = json::array();
   for (const auto& [key, value] : values) list.push_back({{"key", key}, {"value", value}});
   return list;
@@ -150,21 +150,21 @@ nlohmann::ordered_json report_document(const Report& report) {
           {"candidate", report.candidate_label},
           {"reference", report.reference_label},
           {"command", report.command},
-          {"settings", describe(report.settings)},
-          {"versions", describe(report.versions)},
+          {"settings", json_of(report.settings)},
+          {"versions", json_of(report.versions)},
           {"scene", describe_scene(report)},
-          {"objects", describe_all(report.objects)},
+          {"objects", json_list(report.objects)},
           {"candidate_only", report.candidate_only},
           {"reference_only", report.reference_only},
           {"notes", report.notes},
           {"not_followed", report.not_followed},
-          {"bounce_limit", describe(report.bounce_limit)},
-          {"decompositions", describe_all(report.decompositions)},
-          {"study", describe_all(report.study.points)},
-          {"views", describe_all(report.views)},
+          {"bounce_limit", json_of(report.bounce_limit)},
+          {"decompositions", json_list(report.decompositions)},
+          {"study", json_list(report.study.points)},
+          {"views", json_list(report.views)},
           {"thresholds",
-           {{"limits", describe_all(report.thresholds.thresholds)},
-            {"exceeded", describe_all(report.thresholds.exceeded)},
+           {{"limits", json_list(report.thresholds.thresholds)},
+            {"exceeded", json_list(report.thresholds.exceeded)},
             {"passed", report.thresholds.exceeded.empty()}}}};
 }
 

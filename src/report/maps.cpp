@@ -7,9 +7,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr int kSmallest = 16, kLargest = 256;
-constexpr std::size_t kMostTexels = 1U << 22;  // of all maps of a report: about 30 MB of page
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+constexpr int smallest = 16, largest = 256;
+constexpr std::size_t most_texels = 1U << 22;  // of all maps of a report: about 30 MB of page
 
 struct Mean {
   double sum = 0;
@@ -20,7 +20,7 @@ struct Mean {
     sum += value;
     ++values;
   }
-  [[nodiscard]] float get() const { return values == 0 ? kNothing : static_cast<float>(sum / values); }
+  [[nodiscard]] float get() const { return values == 0 ? nothing : static_cast<float>(sum / values); }
 };
 
 FloatImage values_of(const ComparedPicture& picture, const std::vector<CountedWhere>& counted) {
@@ -28,7 +28,7 @@ FloatImage values_of(const ComparedPicture& picture, const std::vector<CountedWh
   const auto channels = static_cast<std::size_t>(out.channels());
   for (std::size_t i = 0; i < out.data().size(); ++i) {
     out.data()[i] =
-        counts(counted, i / channels) ? static_cast<float>(noisy_value(picture, i).value) : kNothing;
+        counts(counted, i / channels) ? static_cast<float>(noisy_value(picture, i).value) : nothing;
   }
   return out;
 }
@@ -45,7 +45,7 @@ FloatImage noise_of(const ComparedPicture& picture, const std::vector<CountedWhe
     for (std::size_t c = 0; c < channels; ++c)
       variance += noisy_value(picture, texel * channels + c).variance;
     out.data()[texel] =
-        counts(counted, texel) ? static_cast<float>(std::sqrt(variance / double(channels))) : kNothing;
+        counts(counted, texel) ? static_cast<float>(std::sqrt(variance / double(channels))) : nothing;
   }
   return out;
 }
@@ -53,9 +53,9 @@ FloatImage noise_of(const ComparedPicture& picture, const std::vector<CountedWhe
 }  // namespace
 
 int map_limit(std::size_t objects, std::size_t bases) {
-  int limit = kLargest;
+  int limit = largest;
   const std::size_t maps = std::max<std::size_t>(objects, 1) * std::max<std::size_t>(bases, 1);
-  while (limit > kSmallest && maps * limit * limit > kMostTexels) limit /= 2;
+  while (limit > smallest && maps * limit * limit > most_texels) limit /= 2;
   return limit;
 }
 

@@ -12,15 +12,15 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::uint16_t kNotANumber = 0x7e00;
-constexpr int kMantissaBits = 10;
-constexpr float kLargestHalf = 65504;
+constexpr std::uint16_t not_anumber = 0x7e00;
+constexpr int mantissa_bits = 10;
+constexpr float largest_half = 65504;
 
 /// Rounded to nearest; what rounds beyond the largest half stays the largest.
 std::uint16_t half_bits(float value, int kept_bits) {
-  if (std::isnan(value)) return kNotANumber;
-  const Imath::half exact(std::clamp(value, -kLargestHalf, kLargestHalf));
-  const int dropped = kMantissaBits - kept_bits;
+  if (std::isnan(value)) return not_anumber;
+  const Imath::half exact(std::clamp(value, -largest_half, largest_half));
+  const int dropped = mantissa_bits - kept_bits;
   if (dropped <= 0) return exact.bits();
   const auto mask = static_cast<std::uint16_t>(0xffffU << dropped);
   const auto rounded = static_cast<std::uint16_t>((exact.bits() + (1U << (dropped - 1))) & mask);

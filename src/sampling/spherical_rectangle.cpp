@@ -6,8 +6,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr float far = 0.01F;            // side^2 / distance^2
-constexpr double smallest = 1e-5;       // steradians: below, the sum of four angles loses too many digits
+constexpr float far = 0.01F;  // side^2 / distance^2
+constexpr double smallest_solid_angle =
+    1e-5;                               // steradians: below, the sum of four angles loses too many digits
 constexpr float right_angle = 1e-4F;    // the largest cosine between the sides
 constexpr float nearest_plane = 1e-4F;  // distance to the plane as a share of the sides
 
@@ -49,7 +50,7 @@ SphericalRectangle::SphericalRectangle(const Vec3& point, const Vec3& centre, co
   b1_ = n2;
   k_ = 2 * pi - g2 - g3;
   solid_angle_ = g0 + g1 + g2 + g3 - 2 * pi;
-  usable_ = solid_angle_ > smallest;
+  usable_ = solid_angle_ > smallest_solid_angle;
 }
 
 Vec3 SphericalRectangle::sample(const Vec2& u) const {

@@ -6,7 +6,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float smallest = 0.1F, largest = 6.2F;  // steradians
+constexpr float least_sampled = 0.1F, most_sampled = 6.2F;  // steradians
 
 }  // namespace
 
@@ -18,7 +18,7 @@ SphericalTriangle::SphericalTriangle(const Vec3& to_corner, const Vec3& edge1, c
   const Vec3 to_centre = to_corner + (edge1 + edge2) / 3;
   const float radius2 = std::max(edge1.length2(), edge2.length2());
   const float nearest = std::sqrt(to_centre.length2()) - std::sqrt(radius2);
-  if (nearest > 0 && area < smallest * nearest * nearest) return;
+  if (nearest > 0 && area < least_sampled * nearest * nearest) return;
   if (height * height < 1e-8F * reach2) return;
   a_ = to_corner.normalized();
   b_ = (to_corner + edge1).normalized();
@@ -27,7 +27,7 @@ SphericalTriangle::SphericalTriangle(const Vec3& to_corner, const Vec3& edge1, c
   const float volume = std::abs(a_.dot(b_.cross(c_)));
   const float sum = 1 + a_.dot(b_) + b_.dot(c_) + c_.dot(a_);
   const float angle = 2 * std::atan2(volume, sum);
-  if (angle > smallest && angle < largest) solid_angle_ = angle;
+  if (angle > least_sampled && angle < most_sampled) solid_angle_ = angle;
 }
 
 Vec3 SphericalTriangle::sample(const Vec2& u) const {

@@ -1,3 +1,4 @@
+#include "base/math.h"
 #include "scene/diffuse_scene_parts.h"
 
 #include <algorithm>
@@ -16,10 +17,6 @@ bool is_finite(const Vec3& color) {
 bool is_share(const Vec3& color) {
   const auto is_share = [](float value) { return value >= 0 && value <= 1; };
   return is_share(color.x) && is_share(color.y) && is_share(color.z);
-}
-
-float largest(const Vec3& color) {
-  return std::max({color.x, color.y, color.z});
 }
 
 /// `none`: whether -1 is a choice.
@@ -49,7 +46,7 @@ void check_look(const DiffuseScene& scene, const SurfaceMaterial& material) {
   if (!is_share(material.transmittance))
     fail(ExitCode::invalid_input, "{}: its transmittance is not within 0 and 1; {}", owner, remedy);
   if (material.albedo_picture < 0 && material.transmittance_picture < 0 &&
-      largest(material.albedo + material.transmittance) > 1 + rounding)
+      max_channel(material.albedo + material.transmittance) > 1 + rounding)
     fail(ExitCode::invalid_input, "{}: its albedo and transmittance together are above 1; {}", owner, remedy);
   if (!is_finite(material.emission))
     fail(ExitCode::invalid_input, "{}: its emission is not finite; {}", owner, remedy);

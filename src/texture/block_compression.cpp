@@ -12,11 +12,11 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSide = 4;  // texels of a block
-constexpr std::size_t kTexels = 16;
+constexpr int side_length = 4;  // texels of a block
+constexpr std::size_t texel_count = 16;
 
 using Colour = std::array<float, 3>;  // 0 to 255
-using Block = std::array<Colour, kTexels>;
+using Block = std::array<Colour, texel_count>;
 
 Colour operator+(const Colour& a, const Colour& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -123,7 +123,7 @@ const std::vector<Split>& bc7_splits() {
 }
 
 struct Encoded {
-  std::array<std::size_t, kTexels> step{};
+  std::array<std::size_t, texel_count> step{};
   Block colours{};
   float error = std::numeric_limits<float>::infinity();
 };
@@ -134,7 +134,7 @@ Encoded encoded(const Block& block, const Palette& palette, const Ends& wanted) 
   for (const float step : palette.steps) colours.push_back(palette.between(ends, step));
   Encoded result;
   result.error = 0;
-  for (std::size_t i = 0; i < kTexels; ++i) {
+  for (std::size_t i = 0; i < texel_count; ++i) {
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t s = 0; s < colours.size(); ++s) {
       const Colour off = block[i] - colours[s];
@@ -171,7 +171,7 @@ Colour principal_axis(const Block& block, const Colour& mean) {
 
 Ends along_axis(const Block& block) {
   Colour mean{};
-  for (const Colour& colour : block) mean = mean + colour * (1.0F / kTexels);
+  for (const Colour& colour : block) mean = mean + colour * (1.0F / texel_count);
   const Colour axis = principal_axis(block, mean);
   float low = 0, high = 0;
   for (const Colour& colour : block) {
@@ -186,7 +186,7 @@ Ends along_axis(const Block& block) {
 Ends refined(const Block& block, const Encoded& encoded, const Palette& palette, const Ends& ends) {
   float aa = 0, ab = 0, bb = 0;
   Colour ac{}, bc{};
-  for (std::size_t i = 0; i < kTexels; ++i) {
+  for (std::size_t i = 0; i < texel_count; ++i) {
     const float b = palette.steps[encoded.step[i]], a = 1 - b;
     aa += a * a;
     ab += a * b;
@@ -214,10 +214,10 @@ Encoded compressed(const Block& block, const Palette& palette) {
 /// `alone` has its own line through the block, the other two share one.
 Encoded split(const Block& block, const Split& how, std::size_t alone) {
   Block two = block, one{};
-  for (std::size_t i = 0; i < kTexels; ++i) std::swap(two[i][alone], one[i][alone]);
+  for (std::size_t i = 0; i < texel_count; ++i) std::swap(two[i][alone], one[i][alone]);
   Encoded result = compressed(two, how.two);
   const Encoded other = compressed(one, how.one);
-  for (std::size_t i = 0; i < kTexels; ++i) result.colours[i][alone] = other.colours[i][alone];
+  for (std::size_t i = 0; i < texel_count; ++i) result.colours[i][alone] = other.colours[i][alone];
   result.error += other.error;
   return result;
 }
@@ -237,15 +237,15 @@ Block best_of(TextureFormat format, const Block& block) {
 void compress_block(const FloatImage& in, FloatImage& out, int left, int top, TextureFormat format) {
   Block block{};
   const auto at = [&](std::size_t i) {
-    return std::pair(std::min(left + static_cast<int>(i) % kSide, in.width() - 1),
-                     std::min(top + static_cast<int>(i) / kSide, in.height() - 1));
+    return std::pair(std::min(left + static_cast<int>(i) % side_length, in.width() - 1),
+                     std::min(top + static_cast<int>(i) / side_length, in.height() - 1));
   };
-  for (std::size_t i = 0; i < kTexels; ++i) {
+  for (std::size_t i = 0; i < texel_count; ++i) {
     const auto [x, y] = at(i);
     for (std::size_t c = 0; c < 3; ++c) block[i][c] = rounded(255 * in.texel(x, y)[c], 255);
   }
   const Block result = best_of(format, block);
-  for (std::size_t i = 0; i < kTexels; ++i) {
+  for (std::size_t i = 0; i < texel_count; ++i) {
     const auto [x, y] = at(i);
     for (std::size_t c = 0; c < 3; ++c) out.texel(x, y)[c] = result[i][c] / 255;
   }
@@ -282,8 +282,8 @@ double bits_per_texel(TextureFormat format) {
 FloatImage through(TextureFormat format, const FloatImage& image) {
   if (format == TextureFormat::rgb8 || format == TextureFormat::rgb565) return rounded_to(image, format);
   FloatImage out(image.width(), image.height(), 3);
-  for (int y = 0; y < image.height(); y += kSide)
-    for (int x = 0; x < image.width(); x += kSide) compress_block(image, out, x, y, format);
+  for (int y = 0; y < image.height(); y += side_length)
+    for (int x = 0; x < image.width(); x += side_length) compress_block(image, out, x, y, format);
   return out;
 }
 

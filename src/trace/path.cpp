@@ -1,5 +1,6 @@
 #include "trace/path.h"
 
+#include "base/math.h"
 #include "sampling/maps.h"
 #include "sampling/orthonormal_basis.h"
 #include "trace/transparency.h"
@@ -11,10 +12,6 @@ namespace {
 
 // Bounces before Russian roulette. Early: only the first vertex of a path is shared by a block.
 constexpr int first_roulette = 1;
-
-float largest(const Vec3& c) {
-  return std::max({c.x, c.y, c.z});
-}
 
 /// The closure at a vertex: a diffuse one, or what the recipe makes of it.
 struct Reflector {
@@ -63,8 +60,8 @@ Vec3 reflected_radiance(const TraceScene& scene, Vertex vertex, const PathOption
   Vec3 sum(0), throughput(1);
   for (int bounce = 0; options.bounces < 0 || bounce < options.bounces; ++bounce) {
     throughput *= scene.materials().albedo(vertex.material, vertex.uv);
-    const float survival = bounce < first_roulette ? 1 : std::min(0.98F, largest(throughput));
-    if (!(largest(throughput) > 0)) break;
+    const float survival = bounce < first_roulette ? 1 : std::min(0.98F, max_channel(throughput));
+    if (!(max_channel(throughput) > 0)) break;
     const Reflector reflector(vertex, options);
     const Vec3& normal = reflector.closure.normal;
     if (options.sample_lights) {

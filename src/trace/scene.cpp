@@ -1,6 +1,7 @@
 #include "trace/scene.h"
 
 #include "base/clock.h"
+#include "base/math.h"
 #include "trace/geometry/accelerator.h"
 
 #include <algorithm>
@@ -22,14 +23,10 @@ T interpolated(const std::vector<T>& corners, const Hit& hit) {
   return c[0] * (1 - hit.b1 - hit.b2) + c[1] * hit.b1 + c[2] * hit.b2;
 }
 
-float largest(const Vec3& c) {
-  return std::max({c.x, c.y, c.z});
-}
-
 /// Probability of a path to go straight on: the transmittance over all that is not absorbed.
 float transmit_probability(const Vec3& transmittance, const Vec3& albedo) {
-  const float through = largest(transmittance);
-  return through > 0 ? through / (through + largest(albedo)) : 0;
+  const float through = max_channel(transmittance);
+  return through > 0 ? through / (through + max_channel(albedo)) : 0;
 }
 
 }  // namespace
@@ -55,7 +52,7 @@ struct TraceScene::TransparencyQuery {
     const std::uint32_t material = scene.triangles_.material[hit.triangle];
     const Vec2 uv = interpolated(scene.triangles_.uv, hit);
     const Vec3 transmittance = scene.materials_.transmittance(material, uv);
-    if (!(largest(transmittance) > 0)) return false;
+    if (!(max_channel(transmittance) > 0)) return false;
     if (is_known(hit)) return true;
     const float share = transmit_probability(transmittance, scene.materials_.albedo(material, uv));
     if (transparent_hits != nullptr) {

@@ -25,7 +25,7 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct NmsOptions {
   std::filesystem::path normal, lightmap, output;
   std::vector<float> light;
   std::vector<int> repeat{1, 1};
@@ -38,9 +38,9 @@ struct Options {
   double bound = 0.1;
 };
 
-constexpr int kLargestSide = 1 << 16;
+constexpr int largest_side = 1 << 16;
 
-Vec3 light_of(const Options& options) {
+Vec3 light_of(const NmsOptions& options) {
   const auto& l = options.light;
   const Vec3 light = l.size() == 3 ? Vec3(l[0], l[1], l[2]) : Vec3(0);
   const float length = light.length();
@@ -53,14 +53,14 @@ Vec3 light_of(const Options& options) {
   return light / length;
 }
 
-Storage storage_of(const Options& options) {
+Storage storage_of(const NmsOptions& options) {
   const std::string ending = options.output.extension().string();
   if (ending == ".exr" || ending == ".EXR") return Storage::full;
   return options.bits == 16 ? Storage::u16 : Storage::u8;
 }
 
 /// What would otherwise be found out after the work.
-void check_output(const Options& options) {
+void check_output(const NmsOptions& options) {
   if (options.output.empty()) fail(ExitCode::usage, "nowhere to write to; pass -o FILE.png or FILE.exr");
   const Storage storage = storage_of(options);
   const std::string obstacle = storage_obstacle(options.output, storage);
@@ -71,7 +71,7 @@ void check_output(const Options& options) {
   }
 }
 
-NormalShadowOptions shadow_options(const Options& options) {
+NormalShadowOptions shadow_options(const NmsOptions& options) {
   NormalShadowOptions shadows = options.shadows;
   if (options.hardness >= 0) shadows.hardness = options.hardness;
   if (options.jitter) shadows.jitter = options.seed;
@@ -79,7 +79,7 @@ NormalShadowOptions shadow_options(const Options& options) {
   return shadows;
 }
 
-std::map<std::string, Attribute> attributes_of(const Options& options, const std::string& what) {
+std::map<std::string, Attribute> attributes_of(const NmsOptions& options, const std::string& what) {
   const NormalShadowOptions shadows = shadow_options(options);
   std::map<std::string, Attribute> attributes{
       {"rnmbake:normal_shadows", what},
@@ -92,7 +92,7 @@ std::map<std::string, Attribute> attributes_of(const Options& options, const std
   return attributes;
 }
 
-void write(const Options& options, const FloatImage& image, const std::string& what) {
+void write(const NmsOptions& options, const FloatImage& image, const std::string& what) {
   const bool colour = image.channels() == 3;
   PictureWriter writer(options.output,
                        {image.width(), image.height(),
@@ -134,15 +134,15 @@ BakedLight baked_light(const std::filesystem::path& file) {
   return {std::move(flat), std::move(rnm), std::move(lightmap.coverage), metadata.green == Green::y_down};
 }
 
-SlopeCurl curl_of(const Options& options, const FloatImage& normals, int scale) {
+SlopeCurl curl_of(const NmsOptions& options, const FloatImage& normals, int scale) {
   return slope_curl(normals, {options.clamp ? Border::clamp : Border::wrap, options.bound, scale});
 }
 
 /// A green channel that points the other way shows in the slopes.
-void warn_of_green(const Options& options, const FloatImage& normals) {
+void warn_of_green(const NmsOptions& options, const FloatImage& normals) {
   const SlopeCurl curl = curl_of(options, normals, 1);
-  constexpr double kRounding = 0.01;  // what 8 bits make of flat normals is less
-  if (curl.rms < kRounding || curl.relative_flipped * 1.5 > curl.relative) return;
+  constexpr double rounding = 0.01;  // what 8 bits make of flat normals is less
+  if (curl.rms < rounding || curl.relative_flipped * 1.5 > curl.relative) return;
   log::warn("{}: its slopes fit together better with --green {}; is green right?", options.normal.string(),
             options.format.y_down ? "up" : "down");
 }
@@ -164,7 +164,7 @@ nlohmann::json json_of(const SlopeCurl& curl, int scale) {
           {"relative_green_turned", curl.relative_flipped}};
 }
 
-void check_integrability(const Options& options, const FloatImage& normals) {
+void check_integrability(const NmsOptions& options, const FloatImage& normals) {
   nlohmann::json json{{"schema_version", 1},      {"normal", options.normal.string()},
                       {"width", normals.width()}, {"height", normals.height()},
                       {"bound", options.bound},   {"scales", nlohmann::json::array()}};
@@ -181,18 +181,18 @@ void check_integrability(const Options& options, const FloatImage& normals) {
   std::cout << (options.json ? json.dump(2) + "\n" : text);
 }
 
-void shadow_lightmap(const Options& options, const FloatImage& normals) {
+void shadow_lightmap(const NmsOptions& options, const FloatImage& normals) {
   const Repeat repeat{options.repeat[0], options.repeat[1]};
-  if (normals.width() > kLargestSide / repeat.u || normals.height() > kLargestSide / repeat.v) {
+  if (normals.width() > largest_side / repeat.u || normals.height() > largest_side / repeat.v) {
     fail(ExitCode::usage, "--repeat {},{} of {}x{} texels is more than {} a side; repeat less, or scale down",
-         repeat.u, repeat.v, normals.width(), normals.height(), kLargestSide);
+         repeat.u, repeat.v, normals.width(), normals.height(), largest_side);
   }
   const BakedLight baked = baked_light(options.lightmap);
   write(options, lightmap_shadows(normals, baked, repeat, shadow_options(options)),
         "E/pi of a lightmap, its dominant direction shadowed");
 }
 
-void shadow_light(const Options& options, const FloatImage& normals) {
+void shadow_light(const NmsOptions& options, const FloatImage& normals) {
   const Vec3 light = light_of(options);
   const FloatImage left = normal_shadows(normals, light, shadow_options(options));
   if (options.lit)
@@ -201,7 +201,7 @@ void shadow_light(const Options& options, const FloatImage& normals) {
     write(options, left, "light left");
 }
 
-int run(const Options& options) {
+int run_nms(const NmsOptions& options) {
   const int ways = int(!options.light.empty()) + int(!options.lightmap.empty()) + int(options.check);
   if (ways != 1) {
     fail(ExitCode::usage, "nms does one of three things; give --light X,Y,Z, or --lightmap FILE, or --check");
@@ -222,7 +222,7 @@ int run(const Options& options) {
   return 0;
 }
 
-void add_normals(CLI::App& command, Options& options) {
+void add_normals(CLI::App& command, NmsOptions& options) {
   command.add_option("--normal", options.normal, "tangent-space normal map (.png, .jpg, .exr, ...)")
       ->required()
       ->type_name("FILE");
@@ -243,7 +243,7 @@ void add_normals(CLI::App& command, Options& options) {
       ->type_name("tile|clamp");
 }
 
-void add_light(CLI::App& command, Options& options) {
+void add_light(CLI::App& command, NmsOptions& options) {
   command
       .add_option("--light", options.light,
                   "one light: the direction towards it in tangent space (x right, y up the picture, z out)")
@@ -266,7 +266,7 @@ void add_light(CLI::App& command, Options& options) {
       ->type_name("U,V");
 }
 
-void add_parameters(CLI::App& command, Options& options) {
+void add_parameters(CLI::App& command, NmsOptions& options) {
   command
       .add_option("--length", options.shadows.length,
                   "H: how far shadows reach at grazing light, as a share of the map's longer side [0.22]")
@@ -288,7 +288,7 @@ void add_parameters(CLI::App& command, Options& options) {
   command.add_option("--seed", options.seed, "of --jitter [0]")->needs("--jitter")->type_name("N");
 }
 
-void add_results(CLI::App& command, Options& options) {
+void add_results(CLI::App& command, NmsOptions& options) {
   command
       .add_option(
           "-o,--output", options.output,
@@ -314,13 +314,13 @@ void add_results(CLI::App& command, Options& options) {
 }  // namespace
 
 std::function<int()> add_nms_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NmsOptions>();
   CLI::App* command = app.add_subcommand("nms", "Shadows out of a normal map alone (normal mapping shadows)");
   add_normals(*command, *options);
   add_light(*command, *options);
   add_parameters(*command, *options);
   add_results(*command, *options);
-  return [options] { return run(*options); };
+  return [options] { return run_nms(*options); };
 }
 
 }  // namespace rnmbake

@@ -62,7 +62,7 @@ SsbumpRunSummary made(const SsbumpFlags& flags, const SsbumpRunOptions& options)
   return run_ssbump(options, progress);
 }
 
-int run(const SsbumpFlags& flags) {
+int run_ssbump(const SsbumpFlags& flags) {
   const SsbumpRunOptions options = flags.options();
   StopRequest::install();
   const SsbumpRunSummary summary = made(flags, options);
@@ -111,7 +111,7 @@ std::function<int()> add_ssbump_command(CLI::App& app) {
       refuse_strays(*command, *tool);
       return action();
     }
-    return run(*flags);
+    return run_ssbump(*flags);
   };
 }
 

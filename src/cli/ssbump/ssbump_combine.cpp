@@ -12,7 +12,7 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct CombineOptions {
   SsbumpInputFlags input;
   SsbumpOutputFlags output;
   std::filesystem::path detail;
@@ -20,7 +20,7 @@ struct Options {
   std::string how = "even";
 };
 
-int run(const Options& options) {
+int run_combine(const CombineOptions& options) {
   if (!(options.repeat > 0) || !std::isfinite(options.repeat))
     fail(ExitCode::usage, "--repeat {:g} covers nothing; give a number above 0", options.repeat);
   SsbumpPicture base = options.input.read();
@@ -37,7 +37,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_combine(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CombineOptions>();
   CLI::App* command = ssbump.add_subcommand("combine", "Lay a tiled detail map over a map");
   options->input.add_to(*command);
   command->add_option("--detail", options->detail, "self-shadowed bump map of the detail")
@@ -52,7 +52,7 @@ std::function<int()> add_ssbump_combine(CLI::App& ssbump) {
       ->check(CLI::IsMember({"even", "channels"}).description(""))
       ->type_name("even|channels");
   options->output.add_to(*command);
-  return [options] { return run(*options); };
+  return [options] { return run_combine(*options); };
 }
 
 }  // namespace rnmbake

@@ -14,14 +14,14 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct CompressCheckOptions {
   SsbumpInputFlags input;
   bool json = false;
 };
 
-constexpr std::array kFormats{TextureFormat::rgb8, TextureFormat::rgb565, TextureFormat::bc1,
-                              TextureFormat::bc7};
-constexpr std::array kScales{SsbumpScale::third, SsbumpScale::ndotb, SsbumpScale::mod2x};
+constexpr std::array formats{TextureFormat::rgb8, TextureFormat::rgb565, TextureFormat::bc1,
+                             TextureFormat::bc7};
+constexpr std::array scales{SsbumpScale::third, SsbumpScale::ndotb, SsbumpScale::mod2x};
 
 nlohmann::ordered_json json_of(TextureFormat format, SsbumpScale scale, const CompressionError& error) {
   return {{"format", name_of(format)},
@@ -39,13 +39,13 @@ std::string row_of(TextureFormat format, SsbumpScale scale, const CompressionErr
                      error.angle_max);
 }
 
-int run(const Options& options) {
+int run_compress_check(const CompressCheckOptions& options) {
   const SsbumpPicture picture = options.input.read();
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::string table = fmt::format("{:<7} {:<6} {:>4} {:>12} {:>10} {:>10} {:>9} {:>7} {:>7}\n", "format",
                                   "scale", "bits", "diffuse RMS", "bias", "max", "bent mean", "95 %", "max");
-  for (const TextureFormat format : kFormats) {
-    for (const SsbumpScale scale : kScales) {
+  for (const TextureFormat format : formats) {
+    for (const SsbumpScale scale : scales) {
       SsbumpEncoding encoding = encoding_of(picture.metadata);
       encoding.scale = scale;
       const CompressionError error = compression_error(picture.weights, encoding, format);
@@ -63,12 +63,12 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_compress_check(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompressCheckOptions>();
   CLI::App* command = ssbump.add_subcommand(
       "compress-check", "What RGB565, BC1 (DXT1) and BC7 do to a map's light and bent normals");
   options->input.add_to(*command);
   command->add_flag("--json", options->json, "a JSON list instead of the table");
-  return [options] { return run(*options); };
+  return [options] { return run_compress_check(*options); };
 }
 
 }  // namespace rnmbake

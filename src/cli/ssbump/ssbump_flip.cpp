@@ -10,12 +10,12 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct FlipOptions {
   SsbumpInputFlags input;
   SsbumpOutputFlags output;
 };
 
-int run(const Options& options) {
+int run_flip(const FlipOptions& options) {
   SsbumpPicture picture = options.input.read();
   SsbumpMetadata& metadata = picture.metadata;
   metadata.handed = metadata.handed == Handed::right ? Handed::left : Handed::right;
@@ -29,12 +29,12 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_flip(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FlipOptions>();
   CLI::App* command =
       ssbump.add_subcommand("flip", "Right-handed to left-handed or back: swaps channels 2 and 3");
   options->input.add_to(*command);
   options->output.add_to(*command, false);
-  return [options] { return run(*options); };
+  return [options] { return run_flip(*options); };
 }
 
 }  // namespace rnmbake

@@ -13,14 +13,14 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct FromNormalOptions {
   std::filesystem::path normal;
   NormalMapFormat format;
   std::string green = "y-up", scale = "third", handed;
   SsbumpOutputFlags output;
 };
 
-int run(const Options& options) {
+int run_from_normal(const FromNormalOptions& options) {
   NormalMapFormat format = options.format;
   format.y_down = options.green == "y-down";
   const Handed as_green = format.y_down ? Handed::left : Handed::right;
@@ -37,7 +37,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_from_normal(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FromNormalOptions>();
   CLI::App* command = ssbump.add_subcommand(
       "from-normal", "A normal map as self-shadowed bump map, sat(N . B_i): no shadows");
   command->add_option("normal", options->normal, "tangent-space normal map")->required()->type_name("FILE");
@@ -52,7 +52,7 @@ std::function<int()> add_ssbump_from_normal(CLI::App& ssbump) {
   command->add_option("--handed", options->handed, "of the map to write [right for y-up, left for y-down]")
       ->check(CLI::IsMember({"right", "left"}).description(""))
       ->type_name("right|left");
-  return [options] { return run(*options); };
+  return [options] { return run_from_normal(*options); };
 }
 
 }  // namespace rnmbake

@@ -20,7 +20,7 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct InfoOptions {
   SsbumpInputFlags input;
   bool json = false;
 };
@@ -61,7 +61,7 @@ std::pair<double, double> tilt_of(const FloatImage& weights) {
   return {sum / static_cast<double>(normals.texels()), most};
 }
 
-void print_json(const Options& options, const SsbumpPicture& picture) {
+void print_json(const InfoOptions& options, const SsbumpPicture& picture) {
   nlohmann::ordered_json json;
   const SsbumpMetadata& metadata = picture.metadata;
   json["file"] = options.input.file.string();
@@ -84,7 +84,7 @@ void print_json(const Options& options, const SsbumpPicture& picture) {
   std::cout << json.dump(2) << '\n';
 }
 
-void print(const Options& options, const SsbumpPicture& picture) {
+void print(const InfoOptions& options, const SsbumpPicture& picture) {
   const SsbumpMetadata& metadata = picture.metadata;
   const auto row = [](const char* name, const std::string& value) {
     if (!value.empty()) std::cout << printable(fmt::format("{:<12} {}", name, value)) << '\n';
@@ -109,7 +109,7 @@ void print(const Options& options, const SsbumpPicture& picture) {
   std::cout << fmt::format("\nBent normals lean {:.1f} degrees on average, {:.1f} at most.\n", mean, most);
 }
 
-int run(const Options& options) {
+int run_info(const InfoOptions& options) {
   const SsbumpPicture picture = options.input.read();
   if (options.json) {
     print_json(options, picture);
@@ -122,11 +122,11 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_info(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoOptions>();
   CLI::App* command = ssbump.add_subcommand("info", "What a map holds: conventions, weights, bent normals");
   options->input.add_to(*command);
   command->add_flag("--json", options->json, "one JSON object instead of the table");
-  return [options] { return run(*options); };
+  return [options] { return run_info(*options); };
 }
 
 }  // namespace rnmbake

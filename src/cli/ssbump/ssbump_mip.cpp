@@ -17,7 +17,7 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct MipOptions {
   SsbumpInputFlags input;
   SsbumpOutputFlags output;
   int levels = 0;
@@ -31,7 +31,7 @@ std::filesystem::path level_file(const std::filesystem::path& file, int level) {
   return file.parent_path() / name;
 }
 
-int run(const Options& options) {
+int run_mip(const MipOptions& options) {
   SsbumpPicture picture = options.input.read();
   SsbumpOutput output = options.output.output(encoding_of(picture.metadata));
   const std::filesystem::path file = output.file;
@@ -58,7 +58,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_mip(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MipOptions>();
   CLI::App* command =
       ssbump.add_subcommand("mip", "The smaller levels of a map: OUT.mip1.png, OUT.mip2.png, ...");
   options->input.add_to(*command);
@@ -66,7 +66,7 @@ std::function<int()> add_ssbump_mip(CLI::App& ssbump) {
   command->add_option("--levels", options->levels, "how many; 0: down to one texel [0]")
       ->check(CLI::Range(0, 32).description(""))
       ->type_name("N");
-  return [options] { return run(*options); };
+  return [options] { return run_mip(*options); };
 }
 
 }  // namespace rnmbake

@@ -10,13 +10,13 @@
 namespace rnmbake {
 namespace {
 
-struct Options {
+struct ToNormalOptions {
   SsbumpInputFlags input;
   SsbumpOutputFlags output;
   std::string green;
 };
 
-int run(const Options& options) {
+int run_to_normal(const ToNormalOptions& options) {
   const SsbumpOutput output = options.output.output({});
   const SsbumpPicture picture = options.input.read();
   const bool y_down =
@@ -33,7 +33,7 @@ int run(const Options& options) {
 }  // namespace
 
 std::function<int()> add_ssbump_to_normal(CLI::App& ssbump) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ToNormalOptions>();
   CLI::App* command =
       ssbump.add_subcommand("to-normal", "The bent normal of every texel, normalise(sum of s_i B_i)");
   options->input.add_to(*command);
@@ -41,7 +41,7 @@ std::function<int()> add_ssbump_to_normal(CLI::App& ssbump) {
   command->add_option("--green", options->green, "where green points [as the map's handedness]")
       ->check(CLI::IsMember({"y-up", "y-down"}).description(""))
       ->type_name("y-up|y-down");
-  return [options] { return run(*options); };
+  return [options] { return run_to_normal(*options); };
 }
 
 }  // namespace rnmbake

@@ -17,7 +17,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kSound = 0.5F;  // a texel of this validity or more counts as sound in the report
+constexpr float sound_validity = 0.5F;  // a texel of this validity or more counts as sound in the report
 
 /// What is open on one side.
 struct Side {
@@ -161,7 +161,7 @@ class Comparer {
     object.outside_model = other.outside_model;
     note_differences(a.first.metadata, b.first.metadata, object);
     if (const FloatImage* validity = layer_of(b.first, "validity"); validity != nullptr && covered > 0) {
-      counted.push_back({validity, kSound});
+      counted.push_back({validity, sound_validity});
       object.validity = double(count(picture, counted)) / covered;
     }
     return object;

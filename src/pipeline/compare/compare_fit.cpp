@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kSameDirection = 1e-3F;
+constexpr float same_direction = 1e-3F;
 
 class Fit {
  public:
@@ -39,7 +39,7 @@ std::string written(const Vec3& v) {
 void check_directions(const Fit& fit, const LightmapMetadata& one, const LightmapMetadata& other) {
   for (const BasisDirection& basis : one.bases) {
     const auto found = std::ranges::find(other.bases, basis.name, &BasisDirection::name);
-    if (found == other.bases.end() || (found->direction - basis.direction).length() < kSameDirection)
+    if (found == other.bases.end() || (found->direction - basis.direction).length() < same_direction)
       continue;
     fit.same(("the direction of basis " + basis.name).c_str(), written(basis.direction),
              written(found->direction), "bake both with one --basis");

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kLayer = "rnmbake:layer";
+constexpr const char* layer_name = "rnmbake:layer";
 
 [[noreturn]] void fail_manifest(const std::filesystem::path& file, const std::string& why) {
   fail(ExitCode::invalid_input, "{}: {}; name a folder that rnmbake wrote", file.string(), why);
@@ -82,7 +82,7 @@ LightmapFolder read_folder(const std::filesystem::path& folder) {
 
 /// The layer that a file of a split lightmap holds; see lightmap/layout.h.
 void name_split_layer(LayeredImage& part) {
-  const auto found = part.attributes.find(kLayer);
+  const auto found = part.attributes.find(layer_name);
   const auto* name = found == part.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
   if (name == nullptr || part.layers.size() != 1) return;
   part.layers.front().name = exr_layer(*name);
@@ -131,7 +131,7 @@ LoadedLightmap load_lightmap(const LightmapPlace& place) {
   LoadedLightmap lightmap;
   lightmap.file = place.files.front().string();
   for (const std::filesystem::path& file : place.files) append_layers(lightmap, read_image(file), file);
-  if (place.files.size() > 1) lightmap.image.attributes.erase(kLayer);  // all layers are here
+  if (place.files.size() > 1) lightmap.image.attributes.erase(layer_name);  // all layers are here
   if (!has_metadata(lightmap.image)) {
     fail(ExitCode::invalid_input, "{} is no lightmap of rnmbake: its header names no convention",
          lightmap.file);

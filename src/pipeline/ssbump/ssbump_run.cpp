@@ -19,9 +19,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kRows = 64;                                  // written at a time
-constexpr double kEdgeShare = 0.03;                        // of the range of heights
-constexpr double kReadUntil = 0.05, kFilteredUntil = 0.2;  // shares of the progress
+constexpr int rows_at_once = 64;                           // written at a time
+constexpr double edge_share = 0.03;                        // of the range of heights
+constexpr double read_until = 0.05, filtered_until = 0.2;  // shares of the progress
 
 const char* name_of(SsbumpMethod method) {
   constexpr std::array names{"horizon", "trace", "cone"};
@@ -83,12 +83,12 @@ class Run {
   void filter() {
     const ReadHeights& heights = summary_.heights;
     const double range = double(heights.highest) - heights.lowest;
-    summary_.edge = options_.filter_edge.value_or(kEdgeShare * range);
+    summary_.edge = options_.filter_edge.value_or(edge_share * range);
     const BilateralOptions bilateral_options{options_.filter_radius,
                                              static_cast<float>(summary_.edge * std::abs(heights.texels)),
                                              options_.generate.threads};
     field_.heights = bilateral(field_, bilateral_options, [&](double share) {
-      progress_.update(kReadUntil + share * (kFilteredUntil - kReadUntil), "filtering");
+      progress_.update(read_until + share * (filtered_until - read_until), "filtering");
     });
   }
 
@@ -97,7 +97,7 @@ class Run {
     if (!options_.normal.empty()) write_normals();
     map_ = std::make_unique<SsbumpFile>(options_.output, metadata(), field_.width(), field_.height());
     if (options_.baked) {
-      progress_.update(kFilteredUntil, "Cycles");
+      progress_.update(filtered_until, "Cycles");
       write_weights(0, options_.baked(field_).image);
     } else {
       generate_map();
@@ -115,7 +115,7 @@ class Run {
           summary_.rmse = std::max(summary_.rmse, rows.rmse);
           write_weights(first_row, rows.image);
         },
-        [&](double share) { progress_.update(kFilteredUntil + share * (1 - kFilteredUntil), "generating"); },
+        [&](double share) { progress_.update(filtered_until + share * (1 - filtered_until), "generating"); },
         [] { return StopRequest::requested(); });
   }
 
@@ -172,8 +172,8 @@ class Run {
   void write_rows(const std::filesystem::path& file, const PictureForm& form,
                   const std::function<FloatImage(int, int)>& rows_of) {
     auto& writer = files_.emplace_back(std::make_unique<PictureWriter>(file, form));
-    for (int begin = 0; begin < form.height; begin += kRows) {
-      const int end = std::min(begin + kRows, form.height);
+    for (int begin = 0; begin < form.height; begin += rows_at_once) {
+      const int end = std::min(begin + rows_at_once, form.height);
       writer->write(begin, end, rows_of(begin, end).data());
       check_stop();
     }

@@ -14,9 +14,9 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kLanes = 8, kBlock = 4 * kLanes;  // texels side by side
-constexpr int kBandRows = 32;
-using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+constexpr int lanes = 8, block_side = 4 * lanes;  // texels side by side
+constexpr int band_rows = 32;
+using Lanes [[gnu::vector_size(lanes * sizeof(float))]] = float;
 
 struct Tap {
   int row = 0, column = 0;  // from the disc's corner, so never negative
@@ -40,7 +40,7 @@ std::vector<Tap> disc(int radius) {
 class Padded {
  public:
   Padded(const HeightField& field, int begin, int end, int radius, float edge)
-      : stride_(static_cast<std::size_t>(field.width() + 2 * radius + kBlock)),
+      : stride_(static_cast<std::size_t>(field.width() + 2 * radius + block_side)),
         rows_(stride_ * static_cast<std::size_t>(end - begin + 2 * radius)) {
     for (int y = begin - radius; y < end + radius; ++y) {
       const float* from = field.heights.texel(0, texel_beyond(y, field.height(), field.y)).data();
@@ -60,20 +60,20 @@ class Padded {
   std::vector<float> rows_;
 };
 
-/// How far kBlock texels from `centre` on are moved, in units of the edge; `corner` is the texel at the
+/// How far block_side texels from `centre` on are moved, in units of the edge; `corner` is the texel at the
 /// disc's upper left of the first of them.
 [[gnu::target_clones("avx2", "default")]] void filter_block(const float* corner, const float* centre,
                                                             const std::vector<std::ptrdiff_t>& offsets,
                                                             const std::vector<Tap>& taps, float* out) {
-  constexpr int kVectors = kBlock / kLanes;
-  Lanes middle[kVectors], weight[kVectors], moved[kVectors];
+  constexpr int vectors = block_side / lanes;
+  Lanes middle[vectors], weight[vectors], moved[vectors];
   std::memcpy(middle, centre, sizeof(middle));
-  for (int v = 0; v < kVectors; ++v) weight[v] = moved[v] = Lanes{};
+  for (int v = 0; v < vectors; ++v) weight[v] = moved[v] = Lanes{};
   for (std::size_t i = 0; i < taps.size(); ++i) {
     const float* from = corner + offsets[i];
-    for (int v = 0; v < kVectors; ++v) {
+    for (int v = 0; v < vectors; ++v) {
       Lanes height;
-      std::memcpy(&height, from + v * kLanes, sizeof(height));
+      std::memcpy(&height, from + v * lanes, sizeof(height));
       const Lanes difference = height - middle[v];
       Lanes likeness = 1.0F - difference * difference;
       likeness = likeness > 0.0F ? likeness : Lanes{};
@@ -82,7 +82,7 @@ class Padded {
       moved[v] += share * difference;
     }
   }
-  for (int v = 0; v < kVectors; ++v) moved[v] /= weight[v];
+  for (int v = 0; v < vectors; ++v) moved[v] /= weight[v];
   std::memcpy(out, moved, sizeof(moved));
 }
 
@@ -96,15 +96,15 @@ class Filter {
     std::vector<std::ptrdiff_t> offsets;
     for (const Tap& tap : taps_)
       offsets.push_back(static_cast<std::ptrdiff_t>(padded.stride()) * tap.row + tap.column);
-    std::vector<float> block(kBlock);
+    std::vector<float> block(block_side);
     for (int y = begin; y < end; ++y) {
       const float* corner = padded.row(y - begin);
       const float* centre = padded.row(y - begin + radius_) + radius_;
       const float* from = field_.heights.texel(0, y).data();
       float* to = out.texel(0, y).data();
-      for (int x = 0; x < field_.width(); x += kBlock) {
+      for (int x = 0; x < field_.width(); x += block_side) {
         filter_block(corner + x, centre + x, offsets, taps_, block.data());
-        const int count = std::min(kBlock, field_.width() - x);
+        const int count = std::min(block_side, field_.width() - x);
         for (int i = 0; i < count; ++i) to[x + i] = from[x + i] + edge_ * block[static_cast<std::size_t>(i)];
       }
     }
@@ -125,11 +125,11 @@ FloatImage bilateral(const HeightField& field, const BilateralOptions& options,
   FloatImage out(field.width(), field.height(), 1);
   const Filter filter(field, options);
   std::atomic<int> rows_done = 0;
-  const int bands = (field.height() + kBandRows - 1) / kBandRows;
+  const int bands = (field.height() + band_rows - 1) / band_rows;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(0, bands, [&](int band) {
-      const int begin = band * kBandRows, end = std::min(begin + kBandRows, field.height());
+      const int begin = band * band_rows, end = std::min(begin + band_rows, field.height());
       filter.rows(begin, end, out);
       const int done = rows_done += end - begin;
       if (progress) progress(static_cast<double>(done) / field.height());

@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kDiscDirections = 64;
+constexpr int disc_directions_count = 64;
 
 double height_at(const HeightField& field, int x, int y) {
   return field.heights.texel(texel_beyond(x, field.width(), field.x),
@@ -84,8 +84,8 @@ std::vector<Vec3> disc_directions(const Vec3& centre, double radius) {
   const Vec3 u = unit(centre.cross(aside)), v = centre.cross(u);
   const double golden = pi * (3 - std::sqrt(5.0));
   std::vector<Vec3> directions;
-  for (int i = 0; i < kDiscDirections; ++i) {
-    const double cosine = 1 - (1 - std::cos(radius)) * (i + 0.5) / kDiscDirections;
+  for (int i = 0; i < disc_directions_count; ++i) {
+    const double cosine = 1 - (1 - std::cos(radius)) * (i + 0.5) / disc_directions_count;
     const double sine = std::sqrt(1 - cosine * cosine);
     directions.push_back(unit(centre * static_cast<float>(cosine) +
                               u * static_cast<float>(sine * std::cos(golden * i)) +

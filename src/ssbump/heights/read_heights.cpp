@@ -20,7 +20,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kRows = 64;  // read at a time
+constexpr int rows_at_once = 64;  // read at a time
 
 /// Channels of a file from `first` on, weighted: one, or the three of luminance.
 struct Source {
@@ -127,8 +127,8 @@ void check_finite(const std::string& file, const FloatImage& heights, int begin,
 void read_values(PictureReader& reader, const std::string& file, const Source& source, FloatImage& heights) {
   const auto channels = static_cast<int>(source.weights.size());
   std::vector<float> values;
-  for (int begin = 0; begin < heights.height(); begin += kRows) {
-    const int end = std::min(begin + kRows, heights.height());
+  for (int begin = 0; begin < heights.height(); begin += rows_at_once) {
+    const int end = std::min(begin + rows_at_once, heights.height());
     values.resize(static_cast<std::size_t>(end - begin) * heights.width() * channels);
     reader.read(begin, end, source.first, channels, values);
     gather(values, source, heights.texel(0, begin).data());
@@ -162,8 +162,8 @@ void scale(ReadHeights& heights, bool invert) {
 
 void check_scaled(const std::string& file, const ReadHeights& heights) {
   const double range = (double(heights.highest) - heights.lowest) * heights.texels;
-  constexpr double kMost = 1e6;
-  if (std::abs(range) <= kMost) return;
+  constexpr double largest_range = 1e6;
+  if (std::abs(range) <= largest_range) return;
   fail(ExitCode::invalid_input,
        "{}: heights range over {:g} texels, from {:g} to {:g} in the file; set --height, or mend the file",
        file, std::abs(range), heights.lowest, heights.highest);

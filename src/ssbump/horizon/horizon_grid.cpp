@@ -7,7 +7,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int block = 32;  // side of the squares that are transposed at once
+constexpr int square_side = 32;  // of the squares that are transposed at once
 
 int steps_about(int near_rows) {
   return near_rows + 2;
@@ -35,15 +35,15 @@ void lay_heights(HorizonGrid& grid, const FloatImage& heights, bool transposed, 
   grid.range = highest - lowest;
   const float* const from = heights.data().data();
   const std::ptrdiff_t by_step = transposed ? 1 : lines, by_line = transposed ? steps : 1;
-  tbb::parallel_for(0, (steps + block - 1) / block, [&](int part) {
-    const int last = std::min(steps, (part + 1) * block);
-    for (int left = 0; left < lines; left += block) {
-      for (int step = part * block; step < last; ++step) {
-        for (int line = left; line < std::min(lines, left + block); ++line)
+  tbb::parallel_for(0, (steps + square_side - 1) / square_side, [&](int part) {
+    const int last = std::min(steps, (part + 1) * square_side);
+    for (int left = 0; left < lines; left += square_side) {
+      for (int step = part * square_side; step < last; ++step) {
+        for (int line = left; line < std::min(lines, left + square_side); ++line)
           first[step * grid.pitch + line] = from[step * by_step + line * by_line];
       }
     }
-    for (int step = part * block; step < last; ++step) {
+    for (int step = part * square_side; step < last; ++step) {
       float* const row = first + step * grid.pitch;
       for (int i = 1; i <= aside; ++i) row[-i] = row[grid.lines.texel(-i)];
       for (int i = 0; i < aside; ++i) row[lines + i] = row[grid.lines.texel(lines + i)];

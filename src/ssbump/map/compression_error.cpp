@@ -21,17 +21,17 @@ struct Lights {
 
 /// Directions evenly over the hemisphere: Fibonacci's spiral.
 Lights lights() {
-  constexpr int kLights = 4096;
+  constexpr int light_count = 4096;
   const auto basis = rnm_basis();
   Lights lights;
-  for (int k = 0; k < kLights; ++k) {
-    const double z = (k + 0.5) / kLights, r = std::sqrt(1 - z * z), turn = k * pi * (3 - std::sqrt(5.0));
+  for (int k = 0; k < light_count; ++k) {
+    const double z = (k + 0.5) / light_count, r = std::sqrt(1 - z * z), turn = k * pi * (3 - std::sqrt(5.0));
     const Vec3 l(Vec3d(r * std::cos(turn), r * std::sin(turn), z));
     std::array<double, 3> lm{};
     for (std::size_t i = 0; i < 3; ++i) lm[i] = std::max(0.0F, l.dot(basis[i]));
     for (std::size_t i = 0; i < 3; ++i) {
-      lights.mean[i] += lm[i] / kLights;
-      for (std::size_t j = 0; j < 3; ++j) lights.square[i][j] += lm[i] * lm[j] / kLights;
+      lights.mean[i] += lm[i] / light_count;
+      for (std::size_t j = 0; j < 3; ++j) lights.square[i][j] += lm[i] * lm[j] / light_count;
     }
   }
   return lights;

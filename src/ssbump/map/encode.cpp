@@ -31,8 +31,8 @@ float chance(std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t
 
 float dithered(float value, float steps, float chance) {
   const float wanted = std::clamp(value, 0.0F, 1.0F) * steps, nearest = std::nearbyint(wanted);
-  constexpr float kOnStep = 1e-3F;  // what 1/3 as a float is beside 85/255
-  const float step = std::abs(wanted - nearest) < kOnStep ? nearest : std::floor(wanted + chance);
+  constexpr float on_step = 1e-3F;  // what 1/3 as a float is beside 85/255
+  const float step = std::abs(wanted - nearest) < on_step ? nearest : std::floor(wanted + chance);
   return std::min(step, steps) / steps;
 }
 

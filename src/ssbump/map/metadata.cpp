@@ -14,16 +14,16 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::string_view kPrefix = "rnmbake:";
-constexpr const char* kConvention = "self-shadowed bump map";
-constexpr std::array kScales{SsbumpScale::third, SsbumpScale::ndotb, SsbumpScale::mod2x};
-constexpr std::array kHanded{Handed::right, Handed::left};
-constexpr std::array kAlpha{SsbumpAlpha::none, SsbumpAlpha::up, SsbumpAlpha::ao};
+constexpr std::string_view prefix = "rnmbake:";
+constexpr const char* convention = "self-shadowed bump map";
+constexpr std::array scales{SsbumpScale::third, SsbumpScale::ndotb, SsbumpScale::mod2x};
+constexpr std::array hands{Handed::right, Handed::left};
+constexpr std::array alpha_kinds{SsbumpAlpha::none, SsbumpAlpha::up, SsbumpAlpha::ao};
 
 using Parts = std::vector<std::pair<std::string, std::string>>;
 
 Parts parts_of(const SsbumpMetadata& metadata) {
-  return {{"convention", kConvention},
+  return {{"convention", convention},
           {"scale", name_of(metadata.scale)},
           {"handedness", name_of(metadata.handed)},
           {"alpha", name_of(metadata.alpha)},
@@ -59,7 +59,7 @@ std::map<std::string, std::string> found_in(const std::map<std::string, Attribut
   }
   for (const auto& [name, value] : attributes) {
     const auto* text = std::get_if<std::string>(&value);
-    if (text != nullptr && name.starts_with(kPrefix)) parts[name.substr(kPrefix.size())] = *text;
+    if (text != nullptr && name.starts_with(prefix)) parts[name.substr(prefix.size())] = *text;
   }
   return parts;
 }
@@ -96,13 +96,13 @@ const char* name_of(SsbumpAlpha alpha) {
 }
 
 std::optional<SsbumpScale> scale_named(const std::string& name) {
-  return named(name, kScales);
+  return named(name, scales);
 }
 std::optional<Handed> handed_named(const std::string& name) {
-  return named(name, kHanded);
+  return named(name, hands);
 }
 std::optional<SsbumpAlpha> alpha_named(const std::string& name) {
-  return named(name, kAlpha);
+  return named(name, alpha_kinds);
 }
 
 std::map<std::string, Attribute> attributes_of(const SsbumpMetadata& metadata) {
@@ -110,7 +110,7 @@ std::map<std::string, Attribute> attributes_of(const SsbumpMetadata& metadata) {
   std::string description;
   for (const auto& [name, value] : parts_of(metadata)) {
     if (value.empty()) continue;
-    attributes[std::string(kPrefix) + name] = value;
+    attributes[std::string(prefix) + name] = value;
     description += fmt::format("{}{}={}", description.empty() ? "" : "; ", name, value);
   }
   attributes["ImageDescription"] = description;
@@ -125,7 +125,7 @@ std::optional<SsbumpMetadata> ssbump_metadata(const std::map<std::string, Attrib
     const auto found = parts.find(name);
     return found == parts.end() ? std::string() : found->second;
   };
-  if (part("convention") != kConvention) return std::nullopt;
+  if (part("convention") != convention) return std::nullopt;
   const auto checked = [&]<typename Value>(const char* name, const std::optional<Value>& value) {
     if (!value) {
       fail(ExitCode::invalid_input, "{}: rnmbake:{} is '{}', which does not exist; make the map again", file,

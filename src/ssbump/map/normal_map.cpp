@@ -14,8 +14,8 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kShortest = 0.1F;
-constexpr double kMostBelow = 0.01;  // share of normals with z < 0; steep maps have a few
+constexpr float shortest = 0.1F;
+constexpr double most_below = 0.01;  // share of normals with z < 0; steep maps have a few
 
 /// How one texel of this picture becomes a vector.
 class Unpacking {
@@ -44,7 +44,7 @@ void check_vector(const Vec3& vector, int x, int y, const std::string& file) {
   const float length = vector.length();
   if (!std::isfinite(length))
     fail(ExitCode::invalid_input, "{}: texel ({}, {}) is not finite; mend the normal map", file, x, y);
-  if (length < kShortest) {
+  if (length < shortest) {
     fail(ExitCode::invalid_input,
          "{}: texel ({}, {}) is a normal of length {:.3f}; is this a tangent-space normal map?", file, x, y,
          length);
@@ -69,7 +69,7 @@ FloatImage unit_normals(const LayeredImage& picture, const std::string& file, co
     }
   }
   const double share = double(below) / double(normals.texels());
-  if (share > kMostBelow) {
+  if (share > most_below) {
     fail(ExitCode::invalid_input,
          "{}: {:.0f} % of its normals point below the surface; a tangent-space normal map is needed", file,
          100 * share);

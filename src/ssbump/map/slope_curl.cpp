@@ -6,7 +6,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kLeastZ = 0.01F;
+constexpr float least_slope_z = 0.01F;
 
 /// The derivatives that are equal on a surface.
 struct Twist {
@@ -36,7 +36,7 @@ class Squares {
   /// Minus the normal's x (0) or y (1) over its z, wrapped around.
   [[nodiscard]] double slope(int x, int y, std::size_t axis) const {
     const auto n = normals_.texel(x % normals_.width(), y % normals_.height());
-    return -n[axis] / std::max(n[2], kLeastZ);
+    return -n[axis] / std::max(n[2], least_slope_z);
   }
   [[nodiscard]] double p(int x, int y) const { return slope(x, y, 0); }
   [[nodiscard]] double q(int x, int y) const { return slope(x, y, 1); }

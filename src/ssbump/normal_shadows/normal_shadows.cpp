@@ -14,14 +14,14 @@ Vec3 normal_at(const FloatImage& normals, int x, int y) {
   return {texel[0], texel[1], texel[2]};
 }
 
-constexpr float kLeastZ = 0.02F;  // of normals whose slope is asked for: 88.9 degrees
+constexpr float least_z = 0.02F;  // of normals whose slope is asked for: 88.9 degrees
 
 /// How fast the light's ray rises over the surface of a texel.
 float clearance(const FloatImage& normals, int x, int y, const Vec3& light,
                 const NormalShadowOptions& options) {
   const Vec3 normal = normal_at(normals, x, y);
   const float cosine = light.dot(normal);
-  return options.true_slopes ? cosine / std::max(normal.z, kLeastZ) : cosine;
+  return options.true_slopes ? cosine / std::max(normal.z, least_z) : cosine;
 }
 
 /// clearance() at a distance from a texel's centre, filtered as a graphics card does: normals are not

@@ -1,5 +1,6 @@
 #include "trace/lights/emissive_triangle.h"
 
+#include "base/math.h"
 #include "trace/geometry/surface_materials.h"
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 namespace rnmbake {
 namespace {
 
-float brightness(const Vec3& c) {
-  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
-}
-
 /// Summed-area tables of a picture: brightness, and number of lit texels.
 class PictureSums {
  public:
@@ -23,7 +20,7 @@ class PictureSums {
     lit_.resize(size);
     for (int y = 0; y < picture.height; ++y) {
       for (int x = 0; x < picture.width; ++x) {
-        const float value = brightness(picture.texels[std::size_t(y) * picture.width + x]);
+        const float value = mean_magnitude(picture.texels[std::size_t(y) * picture.width + x]);
         const std::size_t at = std::size_t(y + 1) * width_ + x + 1;
         light_[at] = double(value) + light_[at - 1] + light_[at - width_] - light_[at - width_ - 1];
         lit_[at] = (value > 0) + lit_[at - 1] + lit_[at - width_] - lit_[at - width_ - 1];
@@ -68,7 +65,7 @@ class BrightnessEstimator {
 
   [[nodiscard]] float of(std::uint32_t material, const Vec2* uv) {
     const int picture = scene_.materials[material].emission_picture;
-    if (picture < 0) return brightness(scene_.materials[material].emission);
+    if (picture < 0) return mean_magnitude(scene_.materials[material].emission);
     if (!sums_[picture]) sums_[picture] = std::make_unique<PictureSums>(scene_.pictures[picture]);
     Vec2 low = uv[0], high = uv[0];
     for (int k = 1; k < 3; ++k) {
@@ -88,7 +85,7 @@ class BrightnessEstimator {
       for (int j = 0; i + j < steps; ++j) {
         const float b1 = (static_cast<float>(i) + 1.0F / 3) / steps;
         const float b2 = (static_cast<float>(j) + 1.0F / 3) / steps;
-        sum += brightness(materials_.emission(material, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
+        sum += mean_magnitude(materials_.emission(material, uv[0] * (1 - b1 - b2) + uv[1] * b1 + uv[2] * b2));
       }
     }
     constexpr int points = steps * (steps + 1) / 2;

@@ -1,5 +1,6 @@
 #include "trace/lights/light_bounds.h"
 
+#include "base/math.h"
 #include "sampling/maps.h"
 
 #include <algorithm>
@@ -7,10 +8,6 @@
 
 namespace rnmbake {
 namespace {
-
-float brightness(const Vec3& c) {
-  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
-}
 
 void bound_area(const Lamp& lamp, LightBounds& bounds) {
   for (int k = 0; k < 3; ++k) {
@@ -21,7 +18,7 @@ void bound_area(const Lamp& lamp, LightBounds& bounds) {
   }
   bounds.axis = lamp.axis;
   bounds.normals = 1;
-  bounds.power = brightness(lamp.radiance) * lamp.area() * lamp.spread_scale;
+  bounds.power = mean_magnitude(lamp.radiance) * lamp.area() * lamp.spread_scale;
   if (lamp.spread_tangent > 0) bounds.emission = 1 / std::sqrt(1 + lamp.spread_tangent * lamp.spread_tangent);
 }
 
@@ -45,7 +42,7 @@ LightBounds lamp_bounds(const Lamp& lamp) {
   const Vec3 reach(lamp.radius, lamp.radius, lamp.radius);
   bounds.low = lamp.position - reach;
   bounds.high = lamp.position + reach;
-  bounds.power = brightness(lamp.radiance);
+  bounds.power = mean_magnitude(lamp.radiance);
   if (lamp.radius > 0) bounds.power *= pi_f * lamp.radius * lamp.radius;
   if (lamp.spot.used) {
     const float cosine = widest_cosine(lamp.spot);

@@ -1,5 +1,6 @@
 #include "trace/lights/lights.h"
 
+#include "base/math.h"
 #include "sampling/maps.h"
 #include "trace/geometry/surface_materials.h"
 #include "trace/lights/emissive_triangle.h"
@@ -20,15 +21,11 @@ constexpr std::uint32_t not_emissive = ~std::uint32_t(0);
 constexpr float even_share = 0.2F;     // of the choice is uniform: a dim group may be the only one visible
 constexpr float horizon_share = 0.3F;  // as in the light tree
 
-float brightness(const Vec3& c) {
-  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
-}
-
 /// Irradiance of a sun, softened towards the horizon; 0 where all of it is below.
 float sun_importance(const Lamp& sun, const Vec3& normal) {
   const float slant2 = 1 + sun.radius * sun.radius;
   const float irradiance =
-      brightness(sun.radiance) * (sun.radius > 0 ? pi_f * sun.radius * sun.radius / slant2 : 1.0F);
+      mean_magnitude(sun.radiance) * (sun.radius > 0 ? pi_f * sun.radius * sun.radius / slant2 : 1.0F);
   if (normal == Vec3(0, 0, 0)) return irradiance;
   const float along = -sun.axis.dot(normal);
   if (along < -1e-3F - sun.radius / std::sqrt(slant2)) return 0;

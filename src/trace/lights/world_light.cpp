@@ -1,5 +1,6 @@
 #include "trace/lights/world_light.h"
 
+#include "base/math.h"
 #include "sampling/maps.h"
 #include "sampling/orthonormal_basis.h"
 
@@ -8,10 +9,6 @@
 
 namespace rnmbake {
 namespace {
-
-float brightness(const Vec3& c) {
-  return (std::abs(c.x) + std::abs(c.y) + std::abs(c.z)) / 3;
-}
 
 /// Share of the sphere above a row: sin^2 of half the angle from the upper pole, which is exact near the
 /// pole.
@@ -62,7 +59,7 @@ double running_sums(const std::vector<double>& weights, float* sums) {
 
 WorldLight::WorldLight(const DiffuseScene& scene) : constant_(scene.world.radiance) {
   if (scene.world.picture < 0) {
-    average_ = brightness(constant_);
+    average_ = mean_magnitude(constant_);
     return;
   }
   picture_ = &scene.pictures[scene.world.picture];
@@ -76,9 +73,9 @@ void WorldLight::build_table() {
   for (int y = 0; y < h; ++y) {
     const Vec3* texels = &picture_->texels[std::size_t(y) * w];
     for (int x = 0; x < w; ++x) {
-      across[std::size_t(y) * w + x] = 0.75 * brightness(texels[x]) +
-                                       0.125 * brightness(texels[(x + 1) % w]) +
-                                       0.125 * brightness(texels[(x + w - 1) % w]);
+      across[std::size_t(y) * w + x] = 0.75 * mean_magnitude(texels[x]) +
+                                       0.125 * mean_magnitude(texels[(x + 1) % w]) +
+                                       0.125 * mean_magnitude(texels[(x + w - 1) % w]);
     }
   }
   rows_.resize(h + 1);
