@@ -27,3 +27,7 @@ find_path(RNMBAKE_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
 find_library(RNMBAKE_UTF8PROC_LIBRARY utf8proc REQUIRED)
 target_include_directories(utf8proc SYSTEM INTERFACE ${RNMBAKE_UTF8PROC_INCLUDE})
 target_link_libraries(utf8proc INTERFACE ${RNMBAKE_UTF8PROC_LIBRARY})
+
+add_library(stb INTERFACE) # one header, compiled in
+find_path(RNMBAKE_STB_INCLUDE stb_rect_pack.h PATH_SUFFIXES stb REQUIRED)
+target_include_directories(stb SYSTEM INTERFACE ${RNMBAKE_STB_INCLUDE})

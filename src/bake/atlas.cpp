@@ -2,78 +2,88 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
+
+#define STBRP_STATIC
+#include <stb_rect_pack.h>
+
+namespace {
+
+/// In place of qsort, whose order of equal rectangles differs between C libraries: pictures would, too.
+void sort_rects(stbrp_rect* rects, int count, std::size_t, int (*compare)(const void*, const void*)) {
+  std::stable_sort(rects, rects + count,
+                   [&](const stbrp_rect& a, const stbrp_rect& b) { return compare(&a, &b) < 0; });
+}
+
+}  // namespace
+
+#define STBRP_SORT sort_rects
+#define STB_RECT_PACK_IMPLEMENTATION
+#include <stb_rect_pack.h>
 
 namespace rnmbake {
 namespace {
 
-/// Fills shelves from the bottom, left to right; an atlas that the next rectangle would make too large is
-/// closed and a new one begun.
-class ShelfPacker {
- public:
-  ShelfPacker(int width, std::int64_t max_pixels) : width_(width), max_pixels_(max_pixels) {}
+constexpr std::int64_t most_pixels = 1 << 30;  // stb_rect_pack counts areas in an int
 
-  Placement place(const RectSize& rect) {
-    if (x_ + rect.width > width_) next_shelf();
-    if (top_ > 0 && !fits(rect)) next_atlas();
-    const Placement placed{atlases_.size(), x_, y_};
-    x_ += rect.width;
-    used_width_ = std::max(used_width_, x_);
-    top_ = std::max(top_, y_ + rect.height);
-    return placed;
-  }
+std::int64_t pixels_of(const stbrp_rect& rect) {
+  return std::int64_t(rect.w) * rect.h;
+}
 
-  std::vector<RectSize> finish() {
-    if (top_ > 0) next_atlas();
-    return std::move(atlases_);
-  }
-
- private:
-  [[nodiscard]] bool fits(const RectSize& rect) const {
-    return std::int64_t(std::max(used_width_, x_ + rect.width)) * std::max(top_, y_ + rect.height) <=
-           max_pixels_;
-  }
-  void next_shelf() {
-    x_ = 0;
-    y_ = top_;
-  }
-  void next_atlas() {
-    atlases_.push_back({used_width_, top_});
-    x_ = y_ = top_ = used_width_ = 0;
-  }
-
-  std::vector<RectSize> atlases_;
-  int width_;
-  std::int64_t max_pixels_;
-  int x_ = 0, y_ = 0, top_ = 0, used_width_ = 0;
-};
-
-/// The smallest power of two that makes the rectangles about square, and never narrower than the widest.
-int choose_width(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
-  std::int64_t pixels = 0;
-  int widest = 1;
-  for (const RectSize& rect : rects) {
-    pixels += std::int64_t(rect.width) * rect.height;
-    widest = std::max(widest, rect.width);
+/// The smallest power of two that makes the rectangles about square; narrower where the tallest would not fit
+/// below the limit otherwise, but never narrower than the widest.
+int choose_width(const std::vector<stbrp_rect>& rects, std::int64_t max_pixels) {
+  std::int64_t pixels = 0, widest = 1, tallest = 1;
+  for (const stbrp_rect& rect : rects) {
+    pixels += pixels_of(rect);
+    widest = std::max<std::int64_t>(widest, rect.w);
+    tallest = std::max<std::int64_t>(tallest, rect.h);
   }
   const double side = std::sqrt(static_cast<double>(std::min(pixels, max_pixels)));
-  int width = 1;
-  while (width < side) width *= 2;
-  return std::max(width, widest);
+  std::int64_t width = 1;
+  while (static_cast<double>(width) < side) width *= 2;
+  return static_cast<int>(std::max(std::min(width, max_pixels / tallest), widest));
+}
+
+/// Adds one atlas with as many of the rectangles as fit; gives the others back. The widest always fits, since
+/// no rectangle has more pixels than the limit.
+std::vector<stbrp_rect> fill_atlas(AtlasPlan& plan, std::vector<stbrp_rect> rects, std::int64_t max_pixels) {
+  const int width = choose_width(rects, max_pixels);
+  std::vector<stbrp_node> nodes(static_cast<std::size_t>(width));
+  stbrp_context context;
+  stbrp_init_target(&context, width, static_cast<int>(max_pixels / width), nodes.data(), width);
+  stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size()));
+  RectSize used;
+  std::vector<stbrp_rect> left;
+  for (const stbrp_rect& rect : rects) {
+    if (rect.was_packed == 0) {
+      left.push_back(rect);
+      continue;
+    }
+    plan.placements[static_cast<std::size_t>(rect.id)] = {plan.atlases.size(), rect.x, rect.y};
+    used = {std::max(used.width, rect.x + rect.w), std::max(used.height, rect.y + rect.h)};
+  }
+  plan.atlases.push_back(used);
+  return left;
 }
 
 }  // namespace
 
 AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
-  std::vector<std::size_t> order(rects.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rects[a].height > rects[b].height; });
-  ShelfPacker packer(choose_width(rects, max_pixels), max_pixels);
+  max_pixels = std::min(max_pixels, most_pixels);
   AtlasPlan plan;
   plan.placements.resize(rects.size());
-  for (const std::size_t rect : order) plan.placements[rect] = packer.place(rects[rect]);
-  plan.atlases = packer.finish();
+  std::vector<stbrp_rect> left;
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    const stbrp_rect rect{static_cast<int>(i), rects[i].width, rects[i].height, 0, 0, 0};
+    if (pixels_of(rect) < max_pixels) {
+      left.push_back(rect);
+    } else {
+      plan.placements[i] = {plan.atlases.size(), 0, 0};
+      plan.atlases.push_back(rects[i]);
+    }
+  }
+  while (!left.empty()) left = fill_atlas(plan, std::move(left), max_pixels);
   return plan;
 }
 

@@ -21,8 +21,8 @@ struct AtlasPlan {
   std::vector<Placement> placements;  // [rects], in the order given
 };
 
-/// Shelf packing, tallest first. No atlas has more than `max_pixels` unless a single rectangle alone does; a
-/// single rectangle gets an atlas of its own size.
+/// Skyline packing (stb_rect_pack), tallest first, the same everywhere. No atlas has more than `max_pixels`
+/// unless a single rectangle alone does; a single rectangle gets an atlas of its own size.
 [[nodiscard]] AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels);
 
 }  // namespace rnmbake

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -84,12 +85,35 @@ TEST(Atlas, OfEqualSquaresIsFull) {
   EXPECT_EQ(plan.atlases[0].width * plan.atlases[0].height, 64 * 64 * 64);
 }
 
+TEST(Atlas, FillsTheRoomBesideWhatIsTall) {
+  std::vector<RectSize> rects(48, RectSize{16, 16});
+  rects.push_back({64, 64});  // all of them are a square of 128 x 128, of which a shelf leaves 48 x 64 empty
+  const AtlasPlan plan = pack(rects, 1 << 24);
+  ASSERT_EQ(plan.atlases.size(), 1U);
+  EXPECT_EQ(plan.atlases[0].width * plan.atlases[0].height, 128 * 128);
+}
+
+TEST(Atlas, OfWhatIsTallerThanTheLimitIsWideIsFull) {
+  const std::vector<RectSize> rects(64, RectSize{64, 2000});
+  const AtlasPlan plan = pack(rects, 1 << 20);
+  expect_sound(rects, plan, 1 << 20);
+  EXPECT_EQ(plan.atlases.size(), 8U);
+}
+
+TEST(Atlas, OfEqualRectanglesKeepsTheirOrder) {
+  const AtlasPlan plan = pack(std::vector<RectSize>(1000, RectSize{8, 8}), 1 << 24);
+  for (std::size_t i = 1; i < 1000; ++i) {
+    const auto &before = plan.placements[i - 1], &here = plan.placements[i];
+    EXPECT_LT(std::pair(before.y, before.x), std::pair(here.y, here.x));
+  }
+}
+
 TEST(Atlas, WastesLittleOnMixedSizes) {
   const auto rects = random_tiles(5, 500, 64);
   std::int64_t wanted = 0, used = 0;
   for (const RectSize& rect : rects) wanted += std::int64_t(rect.width) * rect.height;
   for (const RectSize& atlas : pack(rects, 1 << 24).atlases) used += std::int64_t(atlas.width) * atlas.height;
-  EXPECT_LT(double(used), 1.15 * double(wanted));
+  EXPECT_LT(double(used), 1.07 * double(wanted));  // what shelves take of these
 }
 
 TEST(Atlas, IsTheSameEveryTime) {

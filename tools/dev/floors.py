@@ -34,6 +34,7 @@ OWNED = {
     "hwy/": {"ssbump"},
     "xxhash.h": {"base"},
     "utf8proc.h": {"base"},
+    "stb_rect_pack.h": {"bake"},
     "zlib.h": {"report", "blender"},
     "zstd.h": {"blender"},
 }
