@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-const utf8proc_uint8_t* bytes_of(std::string_view text) {
+const utf8proc_uint8_t* unsigned_bytes(std::string_view text) {
   return reinterpret_cast<const utf8proc_uint8_t*>(text.data());
 }
 
@@ -19,7 +19,7 @@ std::string folded(std::string_view valid) {
                                                       UTF8PROC_IGNORE);
   utf8proc_uint8_t* mapped = nullptr;
   const utf8proc_ssize_t size =
-      utf8proc_map(bytes_of(valid), static_cast<utf8proc_ssize_t>(valid.size()), &mapped, how);
+      utf8proc_map(unsigned_bytes(valid), static_cast<utf8proc_ssize_t>(valid.size()), &mapped, how);
   const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(mapped, &std::free);
   if (size < 0) throw std::bad_alloc();
   return {reinterpret_cast<const char*>(mapped), static_cast<std::size_t>(size)};
@@ -30,7 +30,7 @@ std::string folded(std::string_view valid) {
 CodePoint decode_utf8(std::string_view text, std::size_t at) {
   utf8proc_int32_t value = 0;
   const utf8proc_ssize_t bytes =
-      utf8proc_iterate(bytes_of(text) + at, static_cast<utf8proc_ssize_t>(text.size() - at), &value);
+      utf8proc_iterate(unsigned_bytes(text) + at, static_cast<utf8proc_ssize_t>(text.size() - at), &value);
   if (bytes <= 0) return {static_cast<unsigned char>(text[at]), 1, false};
   return {static_cast<char32_t>(value), static_cast<std::size_t>(bytes), true};
 }
