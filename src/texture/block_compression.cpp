@@ -1,5 +1,7 @@
 #include "texture/block_compression.h"
 
+#include "texture/block_bits.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,16 +115,18 @@ const Palette& bc7_palette() {
 /// BC7's modes 5 and 4: one channel, which may be any, has end points and steps of its own.
 struct Split {
   Palette two, one;
+  Bc7LineBits two_bits, one_bits;
 };
 const std::vector<Split>& bc7_splits() {
   static const std::vector<Split> splits{
-      {{as_bits<7>, bc7_steps(2), bc7_between}, {as_bits<8>, bc7_steps(2), bc7_between}},
-      {{as_bits<5>, bc7_steps(2), bc7_between}, {as_bits<6>, bc7_steps(3), bc7_between}},
-      {{as_bits<5>, bc7_steps(3), bc7_between}, {as_bits<6>, bc7_steps(2), bc7_between}}};
+      {{as_bits<7>, bc7_steps(2), bc7_between}, {as_bits<8>, bc7_steps(2), bc7_between}, {7, 2}, {8, 2}},
+      {{as_bits<5>, bc7_steps(2), bc7_between}, {as_bits<6>, bc7_steps(3), bc7_between}, {5, 2}, {6, 3}},
+      {{as_bits<5>, bc7_steps(3), bc7_between}, {as_bits<6>, bc7_steps(2), bc7_between}, {5, 3}, {6, 2}}};
   return splits;
 }
 
 struct Encoded {
+  Ends ends;  // as held
   std::array<std::size_t, texel_count> step{};
   Block colours{};
   float error = std::numeric_limits<float>::infinity();
@@ -132,7 +136,7 @@ Encoded encoded(const Block& block, const Palette& palette, const Ends& wanted) 
   const Ends ends{palette.held(wanted.first), palette.held(wanted.second)};
   std::vector<Colour> colours;
   for (const float step : palette.steps) colours.push_back(palette.between(ends, step));
-  Encoded result;
+  Encoded result{.ends = ends};
   result.error = 0;
   for (std::size_t i = 0; i < texel_count; ++i) {
     float least = std::numeric_limits<float>::infinity();
@@ -211,44 +215,64 @@ Encoded compressed(const Block& block, const Palette& palette) {
   return best;
 }
 
+BlockLine line_of(const Encoded& encoded) {
+  BlockLine line;
+  for (std::size_t c = 0; c < 3; ++c) {
+    line.ends[0][c] = static_cast<int>(encoded.ends.first[c]);
+    line.ends[1][c] = static_cast<int>(encoded.ends.second[c]);
+  }
+  std::ranges::transform(encoded.step, line.step.begin(),
+                         [](std::size_t step) { return static_cast<int>(step); });
+  return line;
+}
+
+/// What a block looks like, and its bits.
+struct Compressed {
+  Block colours{};
+  float error = std::numeric_limits<float>::infinity();
+  std::vector<std::uint8_t> bits;
+};
+
 /// `alone` has its own line through the block, the other two share one.
-Encoded split(const Block& block, const Split& how, std::size_t alone) {
+Compressed split(const Block& block, const Split& how, std::size_t alone) {
   Block two = block, one{};
   for (std::size_t i = 0; i < texel_count; ++i) std::swap(two[i][alone], one[i][alone]);
-  Encoded result = compressed(two, how.two);
-  const Encoded other = compressed(one, how.one);
+  const Encoded first = compressed(two, how.two), other = compressed(one, how.one);
+  Compressed result{first.colours, first.error + other.error,
+                    bc7_split_bits(line_of(first), how.two_bits, line_of(other), how.one_bits, alone)};
   for (std::size_t i = 0; i < texel_count; ++i) result.colours[i][alone] = other.colours[i][alone];
-  result.error += other.error;
   return result;
 }
 
-Block best_of(TextureFormat format, const Block& block) {
-  if (format == TextureFormat::bc1) return compressed(block, bc1_palette()).colours;
-  Encoded best = compressed(block, bc7_palette());
+Compressed best_of(TextureFormat format, const Block& block) {
+  if (format == TextureFormat::bc1) {
+    const Encoded line = compressed(block, bc1_palette());
+    return {line.colours, line.error, bc1_bits(line_of(line))};
+  }
+  const Encoded line = compressed(block, bc7_palette());
+  Compressed best{line.colours, line.error, bc7_bits(line_of(line))};
   for (const Split& how : bc7_splits()) {
     for (std::size_t alone = 0; alone < 3; ++alone) {
-      const Encoded next = split(block, how, alone);
-      if (next.error < best.error) best = next;
+      Compressed next = split(block, how, alone);
+      if (next.error < best.error) best = std::move(next);
     }
   }
-  return best.colours;
+  return best;
 }
 
-void compress_block(const FloatImage& in, FloatImage& out, int left, int top, TextureFormat format) {
+/// The texel that stands at place `i` of a block.
+std::pair<int, int> texel_at(const FloatImage& image, int left, int top, std::size_t i) {
+  return {std::min(left + static_cast<int>(i) % side_length, image.width() - 1),
+          std::min(top + static_cast<int>(i) / side_length, image.height() - 1)};
+}
+
+Compressed compressed_at(const FloatImage& image, int left, int top, TextureFormat format) {
   Block block{};
-  const auto at = [&](std::size_t i) {
-    return std::pair(std::min(left + static_cast<int>(i) % side_length, in.width() - 1),
-                     std::min(top + static_cast<int>(i) / side_length, in.height() - 1));
-  };
   for (std::size_t i = 0; i < texel_count; ++i) {
-    const auto [x, y] = at(i);
-    for (std::size_t c = 0; c < 3; ++c) block[i][c] = rounded(255 * in.texel(x, y)[c], 255);
+    const auto [x, y] = texel_at(image, left, top, i);
+    for (std::size_t c = 0; c < 3; ++c) block[i][c] = rounded(255 * image.texel(x, y)[c], 255);
   }
-  const Block result = best_of(format, block);
-  for (std::size_t i = 0; i < texel_count; ++i) {
-    const auto [x, y] = at(i);
-    for (std::size_t c = 0; c < 3; ++c) out.texel(x, y)[c] = result[i][c] / 255;
-  }
+  return best_of(format, block);
 }
 
 /// Steps of each channel.
@@ -282,9 +306,27 @@ double bits_per_texel(TextureFormat format) {
 FloatImage through(TextureFormat format, const FloatImage& image) {
   if (format == TextureFormat::rgb8 || format == TextureFormat::rgb565) return rounded_to(image, format);
   FloatImage out(image.width(), image.height(), 3);
-  for (int y = 0; y < image.height(); y += side_length)
-    for (int x = 0; x < image.width(); x += side_length) compress_block(image, out, x, y, format);
+  for (int top = 0; top < image.height(); top += side_length) {
+    for (int left = 0; left < image.width(); left += side_length) {
+      const Block colours = compressed_at(image, left, top, format).colours;
+      for (std::size_t i = 0; i < texel_count; ++i) {
+        const auto [x, y] = texel_at(image, left, top, i);
+        for (std::size_t c = 0; c < 3; ++c) out.texel(x, y)[c] = colours[i][c] / 255;
+      }
+    }
+  }
   return out;
+}
+
+std::vector<std::uint8_t> blocks_of(TextureFormat format, const FloatImage& image) {
+  std::vector<std::uint8_t> blocks;
+  for (int top = 0; top < image.height(); top += side_length) {
+    for (int left = 0; left < image.width(); left += side_length) {
+      const auto bits = compressed_at(image, left, top, format).bits;
+      blocks.insert(blocks.end(), bits.begin(), bits.end());
+    }
+  }
+  return blocks;
 }
 
 }  // namespace rnmbake

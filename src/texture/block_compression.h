@@ -4,6 +4,7 @@
 #include "image/float_image.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace rnmbake {
 
@@ -20,5 +21,9 @@ enum class TextureFormat : std::uint8_t { rgb8, rgb565, bc1, bc7 };
 /// points along the principal axis, refined by least squares; their blocks are what a good encoder writes,
 /// not the best there is.
 [[nodiscard]] FloatImage through(TextureFormat format, const FloatImage& image);
+
+/// The blocks that `through` is the sight of, row by row from the top, as a DDS file holds them; of bc1 and
+/// bc7.
+[[nodiscard]] std::vector<std::uint8_t> blocks_of(TextureFormat format, const FloatImage& image);
 
 }  // namespace rnmbake

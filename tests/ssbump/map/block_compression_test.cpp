@@ -1,10 +1,20 @@
 #include "texture/block_compression.h"
 
+#include "base/files.h"
+#include "image/layered_exr.h"
 #include "ssbump/map/compression_error.h"
 #include "ssbump/map/weights.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +39,111 @@ double rms(const FloatImage& a, const FloatImage& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.data().size(); ++i) sum += std::pow(double(a.data()[i]) - b.data()[i], 2);
   return std::sqrt(sum / static_cast<double>(a.data().size()));
+}
+
+FloatImage noise(int width, int height) {
+  FloatImage image(width, height, 3);
+  std::mt19937 random(1);
+  for (float& value : image.data()) value = std::uniform_real_distribution<float>(0, 1)(random);
+  return image;
+}
+
+/// Smooth in two channels, noise in the other: what BC7's modes 4 and 5 are for.
+FloatImage noise_in(std::size_t channel, FloatImage image) {
+  const FloatImage rough = noise(image.width(), image.height());
+  for (std::size_t i = channel; i < image.data().size(); i += 3) image.data()[i] = rough.data()[i];
+  return image;
+}
+
+/// The blocks as a DDS file, https://learn.microsoft.com/windows/win32/direct3ddds/dds-header.
+std::string dds_file(TextureFormat format, int width, int height, const std::vector<std::uint8_t>& blocks) {
+  const auto number = [](std::size_t value) {
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255);
+    return bytes;
+  };
+  const auto zeros = [](std::size_t numbers) { return std::string(4 * numbers, '\0'); };
+  const bool bc1 = format == TextureFormat::bc1;
+  const std::size_t caps = 1, has_height = 2, has_width = 4, has_format = 0x1000, has_size = 0x80000;
+  std::string file = "DDS " + number(124) + number(caps | has_height | has_width | has_format | has_size) +
+                     number(std::size_t(height)) + number(std::size_t(width)) + number(blocks.size()) +
+                     zeros(13);
+  file += number(32) + number(4) + (bc1 ? "DXT1" : "DX10") + zeros(5);  // the format, by its four letters
+  file += number(0x1000) + zeros(4);                                    // a texture
+  if (!bc1)
+    file += number(98) + number(3) + number(0) + number(1) + number(0);  // BC7_UNORM, flat, one of them
+  return file.append(blocks.begin(), blocks.end());
+}
+
+/// What OpenImageIO's decoder, which knows nothing of ours, reads out of the blocks.
+FloatImage read_by_openimageio(TextureFormat format, const FloatImage& image) {
+  const TempFolder folder;
+  const auto path = folder.path() / "blocks.dds";
+  std::ofstream(path, std::ios::binary)
+      << dds_file(format, image.width(), image.height(), blocks_of(format, image));
+  const FloatImage whole = read_image(path).layers.at(0).pixels;
+  FloatImage colours(whole.width(), whole.height(), 3);
+  for (int y = 0; y < whole.height(); ++y) {
+    for (int x = 0; x < whole.width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) colours.texel(x, y)[c] = whole.texel(x, y)[c];
+      if (whole.channels() == 4) {
+        EXPECT_EQ(whole.texel(x, y)[3], 1) << "alpha at " << x << ' ' << y;
+      }
+    }
+  }
+  return colours;
+}
+
+double largest_difference(const FloatImage& a, const FloatImage& b) {
+  EXPECT_EQ(std::pair(a.width(), a.height()), std::pair(b.width(), b.height()));
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(a.data().size(), b.data().size()); ++i)
+    largest = std::max(largest, std::abs(double(a.data()[i]) - b.data()[i]));
+  return largest;
+}
+
+const std::vector<FloatImage>& pictures() {
+  static const std::vector<FloatImage> all{gradient(32, 32),
+                                           gradient(5, 3),
+                                           gradient(1, 1),
+                                           FloatImage(8, 8, 3),
+                                           noise(64, 64),
+                                           noise(7, 9),
+                                           noise_in(0, gradient(32, 32)),
+                                           noise_in(1, gradient(32, 32)),
+                                           noise_in(2, gradient(32, 32))};
+  return all;
+}
+
+TEST(BlockCompression, OfBc7IsWhatAnotherDecoderReadsOutOfItsBlocks) {
+  for (const FloatImage& image : pictures()) {
+    const FloatImage ours = through(TextureFormat::bc7, image);
+    EXPECT_LT(largest_difference(read_by_openimageio(TextureFormat::bc7, image), ours), 1e-6);
+  }
+}
+
+TEST(BlockCompression, OfBc1IsWhatAnotherDecoderReadsOutOfItsBlocksUpToRounding) {
+  for (const FloatImage& image : pictures()) {
+    const FloatImage ours = through(TextureFormat::bc1, image);
+    // Decoders make 8 bits of 5 by repeating or by rounding, which is at most 1 apart, and may cut thirds
+    // off.
+    EXPECT_LT(largest_difference(read_by_openimageio(TextureFormat::bc1, image), ours), (1 + 0.67) / 255);
+  }
+}
+
+TEST(BlockCompression, UsesEveryModeOfBc7WithEveryChannelAlone) {
+  std::set<std::pair<int, int>> used;  // mode; 1 to 3, the channel alone; 4 more: its steps have fewer bits
+  for (const FloatImage& image : pictures()) {
+    const auto blocks = blocks_of(TextureFormat::bc7, image);
+    ASSERT_EQ(blocks.size() % 16, 0U);
+    for (std::size_t at = 0; at < blocks.size(); at += 16) {
+      const int mode = std::countr_zero(blocks[at]), first = blocks[at] | blocks[at + 1] << 8;
+      used.emplace(mode, mode == 6 ? 0 : first >> (mode + 1) & (mode == 4 ? 7 : 3));
+    }
+  }
+  const std::set<std::pair<int, int>> all{{6, 0}, {5, 1}, {5, 2}, {5, 3}, {4, 1},
+                                          {4, 2}, {4, 3}, {4, 5}, {4, 6}, {4, 7}};
+  EXPECT_EQ(used, all);
 }
 
 TEST(BlockCompression, RoundsAsTheFormatsDo) {
@@ -61,9 +176,7 @@ TEST(BlockCompression, GetsBetterWithTheBitsAndTakesAnySize) {
 }
 
 TEST(BlockCompression, OfNoiseStaysNearTheBestOfALineThroughIt) {
-  FloatImage image(64, 64, 3);
-  std::mt19937 random(1);
-  for (float& value : image.data()) value = std::uniform_real_distribution<float>(0, 1)(random);
+  const FloatImage image = noise(64, 64);
   // A line through the colours takes a third of their variance away, and more where it can choose.
   const double all = std::sqrt(1.0 / 12);
   EXPECT_LT(rms(through(TextureFormat::bc1, image), image), all * std::sqrt(2.0 / 3));
