@@ -1,6 +1,7 @@
 #include "bake/assemble.h"
 
 #include "base/error.h"
+#include "base/numeric/row_order.h"
 #include "scene/uv_raster.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 class Window {
  public:
   Window(const AtlasRect& rect, const FloatImage& picture, int map_height)
-      : picture_(&picture), x0_(rect.x), y0_(map_height - rect.y - rect.size.height) {}
+      : picture_(&picture), x0_(rect.x), y0_(other_row(rect.y + rect.size.height - 1, map_height)) {}
 
   [[nodiscard]] int x0() const { return x0_; }
   [[nodiscard]] int y0() const { return y0_; }

@@ -1,6 +1,7 @@
 #include "bake/request.h"
 
 #include "base/error.h"
+#include "base/numeric/row_order.h"
 #include "config/recipe_names.h"
 
 #include <algorithm>
@@ -199,7 +200,7 @@ FloatImage cut(const std::vector<float>& atlas, int atlas_width, const Placement
   const std::size_t row = std::size_t(size.width) * 4;
   for (int y = 0; y < size.height; ++y) {
     const auto* from = &atlas[(std::size_t(place.y + y) * atlas_width + place.x) * 4];
-    std::copy_n(from, row, &rect.data()[std::size_t(size.height - 1 - y) * row]);
+    std::copy_n(from, row, &rect.data()[std::size_t(other_row(y, size.height)) * row]);
   }
   return rect;
 }

@@ -2,6 +2,8 @@
 // Names, ranges and help of each setting stand in config/settings_table.cpp; one line there for each field.
 #pragma once
 
+#include "base/numeric/stored_values.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -75,8 +77,6 @@ struct ReferenceSettings {
 
 struct OutputSettings {
   enum class Layout { layers, files };
-  enum class Depth { half, full };
-  enum class Normalize { none, flat };
   enum class SaveScene { when_unwrapped, never, always };
 
   std::filesystem::path dir;  // "": not given; `bake` needs it, `inspect` does not

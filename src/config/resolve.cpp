@@ -113,7 +113,7 @@ void ResolvedConfig::check_together() const {
   check_limits(globals.object, provenance(least_given ? "min_resolution" : "max_resolution"));
   check_bases(globals.bake, provenance("bases"));
   const auto& bases = globals.bake.bases;
-  if (globals.output.normalize == OutputSettings::Normalize::flat && globals.bake.basis.empty() &&
+  if (globals.output.normalize == Normalize::flat && globals.bake.basis.empty() &&
       std::find(bases.begin(), bases.end(), "flat") == bases.end()) {
     fail(ExitCode::usage, "{}: normalize = flat needs the flat bake; add flat to 'bases' ({})",
          provenance("normalize"), provenance("bases"));

@@ -45,10 +45,10 @@ Spelling spelling(ReferenceSettings::Model) {
 Spelling spelling(OutputSettings::Layout) {
   return {"layers", "files"};
 }
-Spelling spelling(OutputSettings::Depth) {
+Spelling spelling(Depth) {
   return {"half", "float"};
 }
-Spelling spelling(OutputSettings::Normalize) {
+Spelling spelling(Normalize) {
   return {"none", "flat"};
 }
 Spelling spelling(OutputSettings::SaveScene) {

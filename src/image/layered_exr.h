@@ -1,6 +1,7 @@
 // image/layered_exr.h - multi-layer OpenEXR files in and out.
 #pragma once
 
+#include "base/numeric/stored_values.h"
 #include "image/attribute.h"
 #include "image/float_image.h"
 
@@ -26,8 +27,6 @@ struct LayeredImage {
 
   [[nodiscard]] const Layer* find(const std::string& name) const;
 };
-
-enum class Depth { half, full };
 
 /// Writes all layers (same size) as one scan-line EXR, zip-compressed, whole or not at all.
 /// Throws Error(io) naming the file. Values must already fit the depth: see lightmap/half_range.h.

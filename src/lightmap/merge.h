@@ -1,6 +1,7 @@
 // lightmap/merge.h - per-basis bakes of one target become one lightmap.
 #pragma once
 
+#include "base/numeric/stored_values.h"
 #include "image/bakes.h"
 #include "image/layered_exr.h"
 
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace rnmbake {
-
-enum class Normalize { none, flat };
 
 struct MergeOptions {
   Normalize normalize = Normalize::none;

@@ -1,5 +1,7 @@
 #include "scene/uv_raster.h"
 
+#include "base/numeric/row_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,7 +83,7 @@ void draw(const Corners& c, std::int32_t triangle, UvRaster& raster) {
   const Range rows = clip(std::ceil(low), std::floor(high), raster.height);
   for (int y = rows.first; y <= rows.last; ++y) {
     const Range columns = span_of_row(c, y, raster.width);
-    const std::size_t row = std::size_t(raster.height - 1 - y) * raster.width;
+    const std::size_t row = std::size_t(other_row(y, raster.height)) * raster.width;
     for (int x = columns.first; x <= columns.last; ++x) {
       raster.owners[row + x] = weights.at(triangle, x, y);
       std::uint16_t& layers = raster.layers[row + x];

@@ -100,7 +100,7 @@ TEST(Settings, ChoicesLandOnTheirEnumerators) {
   EXPECT_EQ(s.object.unwrap, ObjectSettings::Unwrap::never);
   EXPECT_EQ(s.bake.recipe, BakingSettings::Recipe::flat_normal_map);
   EXPECT_EQ(s.bake.device, BakingSettings::Device::optix);
-  EXPECT_EQ(s.output.depth, OutputSettings::Depth::full);
+  EXPECT_EQ(s.output.depth, Depth::full);
   EXPECT_EQ(s.bake.dispatch, BakingSettings::Dispatch::object);
   EXPECT_EQ(s.output.save_scene, OutputSettings::SaveScene::always);
 }

@@ -13,14 +13,10 @@
 namespace rnmbake {
 namespace {
 
-Depth depth_of(const OutputSettings& output) {
-  return output.depth == OutputSettings::Depth::full ? Depth::full : Depth::half;
-}
-
 MergeOptions merge_options(const OutputSettings& output, const LightmapHeader& header) {
   MergeOptions options;
-  options.normalize = output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
-  options.depth = depth_of(output);
+  options.normalize = output.normalize;
+  options.depth = output.depth;
   options.dilate = header.dilate;
   options.repair = output.repair;
   return options;
@@ -49,7 +45,7 @@ void refuse_if_nothing_is_a_number(const std::string& key, const MergeCounts& co
 std::vector<std::string> write(const OutputSettings& output, const std::string& stem, LayeredImage image) {
   std::vector<std::string> files;
   const auto save = [&](const std::string& name, const LayeredImage& content) {
-    write_exr(output.dir / name, content, depth_of(output));
+    write_exr(output.dir / name, content, output.depth);
     files.push_back(name);
   };
   if (output.layout == OutputSettings::Layout::layers) {

@@ -157,7 +157,7 @@ class Search {
     differ("scene", manifest_.at("scene"), session_.settings().scene.file.filename().string());
     differ("kind", manifest_.at("kind"), run_.kind);
     differ("normalisation", manifest_.at("conventions").at("normalize"),
-           name_of(normalize_of(session_.settings().output)));
+           name_of(session_.settings().output.normalize));
     differ("list of bases", manifest_.at("bases"), to_json(run_.bases));
   }
 

@@ -34,15 +34,11 @@ Surface surface_of(const SceneSurvey& survey, const Target& target, LostDirectio
                       object.to_world * Mat44().setTranslation(-origin));
 }
 
-Normalize normalize_of(const OutputSettings& output) {
-  return output.normalize == OutputSettings::Normalize::flat ? Normalize::flat : Normalize::none;
-}
-
 LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,
                                  const OutputSettings& output) {
   LightmapMetadata metadata;
   metadata.green = target.flip_green ? Green::y_down : Green::y_up;
-  metadata.normalize = normalize_of(output);
+  metadata.normalize = output.normalize;
   metadata.samples = object.samples;
   metadata.seed = object.seed;
   metadata.rnmbake_version = version;

@@ -30,8 +30,6 @@ class LostDirections {
 [[nodiscard]] Surface surface_of(const SceneSurvey& survey, const Target& target, LostDirections& lost,
                                  const Vec3d& origin = Vec3d(0));
 
-[[nodiscard]] Normalize normalize_of(const OutputSettings& output);
-
 /// All of the header that the target and its settings decide; recipe, horizon, footprint, bounces and
 /// Blender's version are the caller's.
 [[nodiscard]] LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,

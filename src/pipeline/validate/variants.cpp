@@ -13,7 +13,7 @@ constexpr int traced_for_each_baked = 2;  // paths of the reference for each sam
 OutputSettings plain_output(const OutputSettings& output, const std::filesystem::path& dir) {
   OutputSettings plain;
   plain.dir = dir;
-  plain.depth = OutputSettings::Depth::full;
+  plain.depth = Depth::full;
   plain.save_scene = OutputSettings::SaveScene::never;
   plain.keep_temporary = output.keep_temporary;
   return plain;

@@ -121,7 +121,7 @@ TEST_F(TwoObjects, MovedVerticesKeepIt) {
 
 TEST_F(TwoObjects, AnotherKindIsRefusedBeforeAnythingIsWritten) {
   trace(2);
-  config_.globals.output.normalize = OutputSettings::Normalize::flat;
+  config_.globals.output.normalize = Normalize::flat;
   expect_refusal("normalisation");
   trace(2);  // replaces all: nothing to refuse
   config_.globals.scene.file = "other.blend";

@@ -23,7 +23,7 @@ class Tracing {
  public:
   explicit Tracing(ExportResult scene) : exported(std::move(scene)) {
     settings.output.dir = folder_.path();
-    settings.output.depth = OutputSettings::Depth::full;
+    settings.output.depth = Depth::full;
     plan.blender_version = "4.3.2";
   }
 

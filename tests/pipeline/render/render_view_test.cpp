@@ -37,7 +37,7 @@ class Studio {
   void bake() {
     BakeSettings settings;
     settings.output.dir = folder.path();
-    settings.output.depth = OutputSettings::Depth::full;
+    settings.output.depth = Depth::full;
     ReferencePlan plan;
     plan.blender_version = version;
     const auto bases = flat_and_rnm();
