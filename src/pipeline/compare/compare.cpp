@@ -4,7 +4,7 @@
 #include "base/names.h"
 #include "base/version.h"
 #include "pipeline/compare/compare_fit.h"
-#include "pipeline/compare/compare_folder.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 #include "report/finding.h"
 #include "report/maps.h"
 

@@ -1,7 +1,7 @@
 // pipeline/compare/compare_fit.h - whether the numbers of two lightmaps mean the same.
 #pragma once
 
-#include "pipeline/compare/compare_folder.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 
 #include <string>
 #include <vector>

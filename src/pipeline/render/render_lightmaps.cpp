@@ -5,7 +5,7 @@
 #include "base/log.h"
 #include "base/read_file.h"
 #include "image/sample.h"
-#include "pipeline/compare/compare_folder.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/render/render_surfaces.h"
 

@@ -2,7 +2,7 @@
 
 #include "image/metrics.h"
 #include "pipeline/compare/compare_fit.h"
-#include "pipeline/compare/compare_folder.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-// pipeline/compare/compare_folder.h - lightmaps found on disk: a folder with a manifest, or a single file.
+// pipeline/lightmaps/lightmap_folder.h - lightmaps found on disk: a folder with a manifest, or a single file.
 #pragma once
 
 #include "image/layered_exr.h"

@@ -1,4 +1,4 @@
-#include "pipeline/compare/compare_folder.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 
 #include "base/error.h"
 #include "base/json.h"
