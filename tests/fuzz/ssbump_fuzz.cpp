@@ -23,7 +23,7 @@ namespace {
 
 using namespace rnmbake;
 
-constexpr int kMostTexels = 4096;  // more is only slower
+constexpr int most_texels = 4096;  // more is only slower
 
 struct Input {
   std::vector<std::string> flags;
@@ -75,7 +75,7 @@ SsbumpRunOptions parsed(std::vector<std::string> words, const std::filesystem::p
 
 bool is_small(const std::filesystem::path& picture) {
   const PictureReader reader(picture);
-  return static_cast<long>(reader.facts().width) * reader.facts().height <= kMostTexels;
+  return static_cast<long>(reader.facts().width) * reader.facts().height <= most_texels;
 }
 
 void make_and_read_again(const Input& input) {

@@ -15,8 +15,8 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSeeds = 1000;  // tell intervals an eighth too narrow, or a fifth too wide
-const CountBounds right_intervals = count_bounds(kSeeds, 0.95);
+constexpr int seed_count = 1000;  // tell intervals an eighth too narrow, or a fifth too wide
+const CountBounds right_intervals = count_bounds(seed_count, 0.95);
 
 /// A field of the given deviation that is constant over blocks of 4x4 texels.
 FloatImage blocky(int size, double deviation, std::mt19937& random) {
@@ -72,7 +72,7 @@ Hits count_hits(int size) {
   Hits hits;
   const FloatImage truth = plain(size, 2), error = plain(size, 0.1F);
   const double square = 0.05 * 0.05 + 0.1 * 0.1;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < seed_count; ++seed) {
     std::mt19937 random(seed);
     FloatImage first = sum(plain(size, 2.05F), blocky(size, 0.1, random)), second = first, reference = truth;
     add_noise(first, 0.2 * std::sqrt(2), random);
@@ -83,7 +83,7 @@ Hits count_hits(int size) {
     hits.relative_bias += holds(seen.relative_bias, 0.025);
     hits.rmse += holds(seen.rmse, std::sqrt(square));
     hits.relative_rmse += holds(seen.relative_rmse, std::sqrt(square) / 2);
-    hits.mean_square += seen.rmse.value * seen.rmse.value / kSeeds;
+    hits.mean_square += seen.rmse.value * seen.rmse.value / seed_count;
   }
   return hits;
 }
@@ -104,13 +104,13 @@ TEST(Metrics, NoiseIsTakenOutOfTheSquaredError) {
   const double square = 0.05 * 0.05 + 0.1 * 0.1;
   // One seed's deviation of the blocky part: 256 squares of normal numbers, plus the cross term.
   const double blocks = size * size / 16.0;
-  const double deviation = std::sqrt((2 * 1e-4 + 4 * 0.0025 * 0.01) / blocks / kSeeds);
+  const double deviation = std::sqrt((2 * 1e-4 + 4 * 0.0025 * 0.01) / blocks / seed_count);
   EXPECT_NEAR(hits.mean_square, square, 4 * deviation);
 }
 
 TEST(Metrics, NothingButNoiseLeavesNoError) {
   int with_zero = 0, bias_with_zero = 0;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < seed_count; ++seed) {
     std::mt19937 random(1000 + seed);
     FloatImage first = plain(32, 1), second = first, reference = first;
     add_noise(first, 0.5, random);
@@ -122,7 +122,7 @@ TEST(Metrics, NothingButNoiseLeavesNoError) {
     bias_with_zero += holds(seen.bias, 0);
   }
   // An interval wholly below 0 reads [0, 0]: only the half of the misses that lies above is one.
-  EXPECT_GE(with_zero, count_bounds(kSeeds, 0.975).fewest);
+  EXPECT_GE(with_zero, count_bounds(seed_count, 0.975).fewest);
   EXPECT_GE(bias_with_zero, right_intervals.fewest);
   EXPECT_LE(bias_with_zero, right_intervals.most);
 }
@@ -157,10 +157,10 @@ struct RareHits {
 /// Two halves that have found the light against a reference of `times` as many paths; the true error is 0.
 RareHits count_rare_hits(int size, const RareLight& light, double times, int seeds) {
   RareHits hits;
-  constexpr float kEven = 0.2F;
+  constexpr float even = 0.2F;
   for (int seed = 0; seed < seeds; ++seed) {
     std::mt19937 random(seed);
-    FloatImage first = plain(size, kEven, 1), second = first, reference = first, error = plain(size, 0, 1);
+    FloatImage first = plain(size, even, 1), second = first, reference = first, error = plain(size, 0, 1);
     add_noise(first, 0.05, random);
     add_noise(second, 0.05, random);
     light.shine(0.5, random, first, nullptr);
@@ -179,13 +179,13 @@ RareHits count_rare_hits(int size, const RareLight& light, double times, int see
 
 /// They may hold it more often than they say: they reach as far as a path that was not found.
 TEST(Metrics, IntervalsHoldTheTruthHoweverFewPathsFoundTheLight) {
-  constexpr int kMany = 400;
-  const int fewest = count_bounds(kMany, 0.95).fewest;
+  constexpr int many = 400;
+  const int fewest = count_bounds(many, 0.95).fewest;
   for (const int size : {16, 32}) {
     for (const double times : {2., 8.}) {
       for (const double sigma : {0., 1., 1.5}) {
         for (const double paths : {1., 3., 10., 30., 100., 1000.}) {
-          const RareHits hits = count_rare_hits(size, {paths, sigma}, times, kMany);
+          const RareHits hits = count_rare_hits(size, {paths, sigma}, times, many);
           const std::string light = fmt::format(
               "{} paths, log sigma {}, {} times as many in the reference, {}^2", paths, sigma, times, size);
           EXPECT_GE(hits.bias, fewest) << light;
@@ -198,8 +198,8 @@ TEST(Metrics, IntervalsHoldTheTruthHoweverFewPathsFoundTheLight) {
 }
 
 TEST(Metrics, SaysWhereTooFewPathsFoundTheLight) {
-  const int few = count_rare_hits(32, {3, 1}, 2, kSeeds).too_noisy;
-  EXPECT_GE(few, count_bounds(kSeeds, 0.9).fewest) << "it is to be said nine times in ten";
+  const int few = count_rare_hits(32, {3, 1}, 2, seed_count).too_noisy;
+  EXPECT_GE(few, count_bounds(seed_count, 0.9).fewest) << "it is to be said nine times in ten";
   // A path moves the mean by 1/12,000: 36 would have to meet in a texel, where there are ten.
   EXPECT_EQ(count_rare_hits(32, {10000, 0}, 2, 100).too_noisy, 0);
 }

@@ -15,14 +15,14 @@ namespace rnmbake {
 namespace {
 
 // 2x2 RGBA, 8 bits: (255,0,0,0) (128,128,255,128) / (0,255,0,255) (10,20,30,1)
-const std::array<unsigned char, 83> kRgbaPng{
+const std::array<unsigned char, 83> rgba_png{
     137, 80, 78,  71,  13,  10,  26,  10,  0,   0,   0,   13,  73,  72, 68,  82,  0,   0,  0,  2,  0,
     0,   0,  2,   8,   6,   0,   0,   0,   114, 182, 13,  36,  0,   0,  0,   26,  73,  68, 65, 84, 120,
     218, 99, 248, 207, 192, 192, 208, 208, 240, 191, 129, 129, 225, 63, 195, 127, 46,  17, 57, 70, 0,
     58,  11, 5,   186, 221, 21,  45,  246, 0,   0,   0,   0,   73,  69, 78,  68,  174, 66, 96, 130};
 
 // 8x8 grey ramp as JPEG.
-const std::array<unsigned char, 755> kJpeg{
+const std::array<unsigned char, 755> jpeg{
     255, 216, 255, 224, 0,   16,  74,  70,  73,  70,  0,   1,   1,   0,   0,   1,   0,   1,   0,   0,   255,
     225, 1,   24,  69,  120, 105, 102, 0,   0,   73,  73,  42,  0,   188, 0,   0,   0,   111, 105, 105, 111,
     116, 111, 111, 108, 32,  47,  116, 109, 112, 47,  114, 97,  109, 112, 46,  112, 103, 109, 32,  45,  45,
@@ -71,7 +71,7 @@ std::filesystem::path stored(const TempFolder& folder, const char* name,
 
 TEST(Textures, AlphaOfAPngDoesNotChangeItsColours) {
   const TempFolder folder;
-  const LayeredImage image = read_image(stored(folder, "n.png", kRgbaPng));
+  const LayeredImage image = read_image(stored(folder, "n.png", rgba_png));
   const Layer* layer = image.find("");
   ASSERT_NE(layer, nullptr);
   EXPECT_EQ(layer->channels, (std::vector<std::string>{"R", "G", "B", "A"}));
@@ -97,9 +97,9 @@ TEST(Textures, AlphaComesBehindVectorsToo) {
 
 TEST(Textures, TruncatedPngAndJpegAreRefused) {
   const TempFolder folder;
-  EXPECT_NO_THROW((void)read_image(stored(folder, "whole.jpg", kJpeg)));
-  EXPECT_THROW((void)read_image(stored(folder, "cut.png", kRgbaPng, 60)), Error);
-  EXPECT_THROW((void)read_image(stored(folder, "cut.jpg", kJpeg, kJpeg.size() - 30)), Error);
+  EXPECT_NO_THROW((void)read_image(stored(folder, "whole.jpg", jpeg)));
+  EXPECT_THROW((void)read_image(stored(folder, "cut.png", rgba_png, 60)), Error);
+  EXPECT_THROW((void)read_image(stored(folder, "cut.jpg", jpeg, jpeg.size() - 30)), Error);
 }
 
 TEST(Textures, SrgbCurve) {

@@ -10,8 +10,8 @@
 namespace rnmbake {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 FloatImage filled(int width, int height, int channels, float value) {
   FloatImage image(width, height, channels);
@@ -24,7 +24,8 @@ void set(FloatImage& image, int x, int y, float value) {
 }
 
 std::ptrdiff_t fireflies(const FloatImage& image) {
-  return std::ranges::count(find_faults(image, filled(image.width(), image.height(), 1, 1)), Fault::firefly);
+  return std::ranges::count(find_faults(image, filled(image.width(), image.height(), 1, 1)),
+                            TexelFault::firefly);
 }
 
 TEST(Faults, LoneBrightTexelIsAFirefly) {
@@ -81,24 +82,24 @@ TEST(Faults, OrdinaryNoiseIsNone) {
 TEST(Faults, UncoveredTexelsNeitherCountNorJudge) {
   FloatImage image = filled(3, 1, 3, 0), coverage = filled(3, 1, 1, 0);
   set(image, 1, 0, 100);
-  set(image, 0, 0, kNaN);
+  set(image, 0, 0, not_a_number);
   coverage.texel(1, 0)[0] = 1;
   const auto faults = find_faults(image, coverage);
-  EXPECT_EQ(std::ranges::count(faults, Fault::none), 3);
+  EXPECT_EQ(std::ranges::count(faults, TexelFault::none), 3);
 }
 
 TEST(Faults, OneBadChannelIsEnough) {
   FloatImage image = filled(4, 4, 3, 1);
-  image.texel(1, 1)[2] = kNaN;
-  image.texel(2, 3)[0] = kInf;
-  image.texel(3, 3)[1] = -kInf;
-  EXPECT_EQ(std::ranges::count(find_faults(image, filled(4, 4, 1, 1)), Fault::non_finite), 3);
+  image.texel(1, 1)[2] = not_a_number;
+  image.texel(2, 3)[0] = infinity;
+  image.texel(3, 3)[1] = -infinity;
+  EXPECT_EQ(std::ranges::count(find_faults(image, filled(4, 4, 1, 1)), TexelFault::non_finite), 3);
 }
 
 TEST(Repair, TakesTheMeanOfSoundNeighboursAndNothingElse) {
   FloatImage image = filled(5, 5, 3, 1), coverage = filled(5, 5, 1, 1);
-  set(image, 1, 1, kNaN);
-  set(image, 2, 1, kInf);
+  set(image, 1, 1, not_a_number);
+  set(image, 2, 1, infinity);
   set(image, 0, 0, 2);
   coverage.texel(0, 1)[0] = 0;  // holds 1, must not be asked
   set(image, 0, 1, 50);
@@ -114,10 +115,10 @@ TEST(Repair, TakesTheMeanOfSoundNeighboursAndNothingElse) {
 TEST(Repair, LargeHolesCloseAndHopelessOnesAreBlack) {
   FloatImage image = filled(9, 9, 3, 2), coverage = filled(9, 9, 1, 1);
   for (int y = 2; y < 7; ++y)
-    for (int x = 2; x < 7; ++x) set(image, x, y, kNaN);
+    for (int x = 2; x < 7; ++x) set(image, x, y, not_a_number);
   EXPECT_EQ(repair_faults(image, coverage, find_faults(image, coverage)), 25U);
   EXPECT_TRUE(std::ranges::all_of(image.data(), [](float value) { return std::abs(value - 2) < 1e-5F; }));
-  FloatImage lost = filled(2, 2, 3, kNaN);
+  FloatImage lost = filled(2, 2, 3, not_a_number);
   const FloatImage all = filled(2, 2, 1, 1);
   EXPECT_EQ(repair_faults(lost, all, find_faults(lost, all)), 4U);
   EXPECT_TRUE(std::ranges::all_of(lost.data(), [](float value) { return value == 0; }));

@@ -109,7 +109,7 @@ class Invented {
   [[nodiscard]] BakeSettings& settings() { return config_.globals; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
-  [[nodiscard]] std::vector<LightmapHeader>& notes() { return notes_; }
+  [[nodiscard]] std::vector<LightmapHeader>& headers() { return headers_; }
 
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
@@ -149,7 +149,7 @@ class Invented {
     LightmapHeader note;
     note.stem = name;
     note.metadata.object = name;
-    notes_.push_back(note);
+    headers_.push_back(note);
   }
 
   TempFolder folder_;
@@ -158,7 +158,7 @@ class Invented {
   std::vector<Target> targets_;
   std::vector<BasisDirection> bases_;
   Plan plan_;
-  std::vector<LightmapHeader> notes_;
+  std::vector<LightmapHeader> headers_;
 };
 
 inline bool is_delivered(const BakeCollector& collector, std::size_t target) {

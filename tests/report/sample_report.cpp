@@ -15,7 +15,7 @@
 namespace rnmbake {
 namespace {
 
-const std::vector<std::string> kBases{"flat", "rnm0", "rnm1", "rnm2"};
+const std::vector<std::string> basis_names{"flat", "rnm0", "rnm1", "rnm2"};
 
 struct Textures {
   FloatImage candidate, second, reference, error, coverage;
@@ -60,14 +60,14 @@ ObjectComparison make_object(const std::string& key, int size, int limit, std::m
   object.width = object.height = size;
   object.coverage = 0.9;
   object.validity = 0.98;
-  for (std::size_t i = 0; i < kBases.size(); ++i) {
+  for (std::size_t i = 0; i < basis_names.size(); ++i) {
     const Textures p = make_pictures(size, offsets(random), random);
     const ComparedPicture candidate{&p.candidate, &p.second, nullptr};
     const ComparedPicture reference{&p.reference, nullptr, &p.error};
     PictureComparison comparison;
     comparison.add(candidate, reference, {{&p.coverage}});
-    object.bases.push_back({kBases[i], comparison.metrics()});
-    object.maps.push_back(make_maps(kBases[i], candidate, reference, {{&p.coverage}}, limit));
+    object.bases.push_back({basis_names[i], comparison.metrics()});
+    object.maps.push_back(make_maps(basis_names[i], candidate, reference, {{&p.coverage}}, limit));
     scene[i].add(comparison);
   }
   return object;
@@ -75,14 +75,15 @@ ObjectComparison make_object(const std::string& key, int size, int limit, std::m
 
 Report make_report(const std::vector<std::string>& keys, int size) {
   std::mt19937 random(7);
-  std::vector<PictureComparison> scene(kBases.size());
+  std::vector<PictureComparison> scene(basis_names.size());
   Report report;
   report.title = "hall.blend, recipe flat-normal-map";
   report.candidate_label = "Cycles 4.3.2";
   report.reference_label = "reference";
-  const int limit = map_limit(keys.size(), kBases.size());
+  const int limit = map_limit(keys.size(), basis_names.size());
   for (const std::string& key : keys) report.objects.push_back(make_object(key, size, limit, random, scene));
-  for (std::size_t i = 0; i < kBases.size(); ++i) report.scene.push_back({kBases[i], scene[i].metrics()});
+  for (std::size_t i = 0; i < basis_names.size(); ++i)
+    report.scene.push_back({basis_names[i], scene[i].metrics()});
   report.settings = {{"Cycles 4.3.2: samples", "256"}, {"reference: samples", "1024"}};
   report.versions = {{"rnmbake", "0.1.0"}, {"Blender", "4.3.2"}};
   report.command = "rnmbake compare bakes truth --second-a bakes2 --fail-above rmse=2% -o report";
@@ -102,7 +103,7 @@ DecompositionRow row(const std::string& name, double bias, double rmse) {
 Decomposition make_decomposition(const std::string& subject) {
   Decomposition decomposition{subject, {}};
   double share = 1;
-  for (const std::string& basis : kBases) {
+  for (const std::string& basis : basis_names) {
     decomposition.bases.push_back(
         {basis,
          0.4,

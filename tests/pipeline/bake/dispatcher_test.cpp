@@ -17,7 +17,7 @@ struct Bake {
       : scene(objects, settings),
         context(scene.context()),
         session(scene.config(), blender),
-        collector(context, scene.settings().output, scene.notes()) {}
+        collector(context, scene.settings().output, scene.headers()) {}
 
   BakeTimings run() { return run_batches(session, context, BlendPath("scene.blend"), collector); }
 

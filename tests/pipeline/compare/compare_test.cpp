@@ -18,12 +18,12 @@
 namespace rnmbake {
 namespace {
 
-constexpr int kSize = 16;
+constexpr int picture_size = 16;
 
 struct Lightmap {
   std::string key;
   float value = 1;
-  int seed = 1, size = kSize;
+  int seed = 1, size = picture_size;
   std::vector<std::string> bases{"flat", "rnm0", "rnm1", "rnm2"};
   float standard_error = 0;
   std::function<void(LightmapMetadata&)> change = {};
@@ -166,7 +166,7 @@ TEST_F(Compare, CountsWhatBothCoverAndWhatIsSound) {
   left.spoil = [](LayeredImage& image) { image.layers.back().pixels.texel(0, 0)[0] = 0; };
   right.spoil = [](LayeredImage& image) {
     image.layers.back().pixels.texel(1, 0)[0] = 0;
-    FloatImage validity = plain(kSize, 1, 1);
+    FloatImage validity = plain(picture_size, 1, 1);
     validity.texel(2, 0)[0] = 0.25F;
     image.layers.push_back({"validity", {""}, validity});
   };

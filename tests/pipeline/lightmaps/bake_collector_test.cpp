@@ -36,7 +36,7 @@ struct Desk {
   explicit Desk(const BakeSettings& settings = {}, std::size_t objects = 1)
       : scene(objects, settings),
         context(scene.context()),
-        collector(context, scene.settings().output, scene.notes()) {}
+        collector(context, scene.settings().output, scene.headers()) {}
 
   void take(const std::vector<std::size_t>& tasks, float value = 0.5F) {
     const Batch batch{tasks};

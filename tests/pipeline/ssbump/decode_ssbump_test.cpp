@@ -116,10 +116,10 @@ struct Fit {
 /// One far light after the other over a bumpy field, decoded and held against what it lights exactly.
 Fit fit_to_shadows(const HeightField& field, SsbumpPicture map, SsbumpAlpha alpha) {
   map.metadata.alpha = alpha;
-  constexpr int kLights = 24;
+  constexpr int light_count = 24;
   double squares = 0, e = 0, t = 0, et = 0, tt = 0, count = 0;
-  for (int k = 0; k < kLights; ++k) {
-    const double z = (k + 0.5) / kLights, turn = k * pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+  for (int k = 0; k < light_count; ++k) {
+    const double z = (k + 0.5) / light_count, turn = k * pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
     const Vec3 light(Vec3d(r * std::cos(turn), r * std::sin(turn), z));
     Lightmap lightmap = sided();
     lightmap.layers["flat"] = constant(2, 2, 3, light.z);
@@ -139,12 +139,12 @@ Fit fit_to_shadows(const HeightField& field, SsbumpPicture map, SsbumpAlpha alph
 }
 
 TEST_F(DecodeSsbump, GetsSharperShadowsFromTheFourthDirection) {
-  constexpr int kSide = 64;
-  HeightField field{FloatImage(kSide, kSide, 1), WrapMode::wrap, WrapMode::wrap};
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  constexpr int side = 64;
+  HeightField field{FloatImage(side, side, 1), WrapMode::wrap, WrapMode::wrap};
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
       field.heights.texel(x, y)[0] =
-          static_cast<float>(6 * std::sin(2 * pi * x * 2 / kSide) * std::cos(2 * pi * y * 2 / kSide));
+          static_cast<float>(6 * std::sin(2 * pi * x * 2 / side) * std::cos(2 * pi * y * 2 / side));
   GenerateOptions options;
   options.power = 4;
   SsbumpPicture map;

@@ -56,14 +56,14 @@ TEST(Bilateral, IsItsDefinitionAtEverySizeAndBorder) {
 }
 
 TEST(Bilateral, TakesStairStepsOutOfASlopeAndKeepsTheEdge) {
-  constexpr int kSide = 96;
-  HeightField field{FloatImage(kSide, kSide, 1), WrapMode::none, WrapMode::none};
+  constexpr int side = 96;
+  HeightField field{FloatImage(side, side, 1), WrapMode::none, WrapMode::none};
   const auto smooth = [](int x) { return 0.02F * static_cast<float>(x) + (x >= 48 ? 8.0F : 0.0F); };
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) field.heights.texel(x, y)[0] = std::round(8 * smooth(x)) / 8;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) field.heights.texel(x, y)[0] = std::round(8 * smooth(x)) / 8;
   const FloatImage filtered = bilateral(field, {10, 1, 2});
   double before = 0, after = 0;
-  for (int x = 12; x < kSide - 12; ++x) {
+  for (int x = 12; x < side - 12; ++x) {
     if (std::abs(x - 48) < 12) continue;
     const float mean = smooth(x) + (x < 48 ? 0 : 0);
     before += std::pow(field.heights.texel(x, 40)[0] - mean, 2);

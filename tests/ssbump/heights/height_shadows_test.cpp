@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr double kFloor = 0.01;
+constexpr double least_slope = 0.01;
 
 /// The bilinear surface, looked up anywhere.
 double surface(const HeightField& field, double x, double y) {
@@ -46,17 +46,17 @@ TEST(HeightShadows, HorizonIsTheHighestOfAllPointsOnTheWay) {
 }
 
 TEST(HeightShadows, AWallCastsAShadowOfKnownLength) {
-  constexpr int kWall = 40;
-  HeightField field = field_of(64, 8, [](int x, int) { return x >= kWall ? 10 : 0; });
+  constexpr int wall = 40;
+  HeightField field = field_of(64, 8, [](int x, int) { return x >= wall ? 10 : 0; });
   field.x = WrapMode::none;
   for (const double azimuth : {0.0, 30.0, -60.0}) {
     for (const double elevation : {20.0, 35.0, 50.0}) {
       const FloatImage seen = height_shadows(field, light_from(azimuth, elevation));
       const double length = 10 / std::tan(elevation * pi / 180) * std::cos(azimuth * pi / 180);
-      for (int x = 0; x < kWall; ++x)
-        EXPECT_EQ(seen.texel(x, 3)[0], kWall - x > length ? 1 : 0)
+      for (int x = 0; x < wall; ++x)
+        EXPECT_EQ(seen.texel(x, 3)[0], wall - x > length ? 1 : 0)
             << azimuth << ", " << elevation << ", " << x;
-      EXPECT_EQ(seen.texel(kWall, 3)[0], 1);
+      EXPECT_EQ(seen.texel(wall, 3)[0], 1);
     }
   }
 }
@@ -67,11 +67,11 @@ TEST(HeightShadows, ASpikeSeenAlongTheDiagonal) {
   field.x = field.y = WrapMode::none;
   const float half = std::sqrt(0.5F);
   const HeightRays rays(field);
-  EXPECT_NEAR(rays.horizon_slope(6, 10, {half, half}, kFloor), 6 / (2 * std::sqrt(2)),
+  EXPECT_NEAR(rays.horizon_slope(6, 10, {half, half}, least_slope), 6 / (2 * std::sqrt(2)),
               1e-6);  // y up: from below
-  EXPECT_NEAR(rays.horizon_slope(7, 9, {half, half}, kFloor), 6 / std::sqrt(2), 1e-6);
-  EXPECT_EQ(rays.horizon_slope(10, 6, {half, half}, kFloor), kFloor);
-  EXPECT_EQ(rays.horizon_slope(6, 10, {half, -half}, kFloor), kFloor);
+  EXPECT_NEAR(rays.horizon_slope(7, 9, {half, half}, least_slope), 6 / std::sqrt(2), 1e-6);
+  EXPECT_EQ(rays.horizon_slope(10, 6, {half, half}, least_slope), least_slope);
+  EXPECT_EQ(rays.horizon_slope(6, 10, {half, -half}, least_slope), least_slope);
 }
 
 /// Between (0, 4) and (4, 0) a patch hangs like a saddle: along its diagonal the middle is the highest.
@@ -86,19 +86,19 @@ TEST(HeightShadows, TheTopOfASaddleLiesWithinThePatch) {
     const double u = i * 1e-5;
     best = std::max(best, 8 * u * (1 - u) / (std::sqrt(2) * (1 + u)));
   }
-  EXPECT_NEAR(HeightRays(field).horizon_slope(0, 0, {half, -half}, kFloor), best, 1e-6);
+  EXPECT_NEAR(HeightRays(field).horizon_slope(0, 0, {half, -half}, least_slope), best, 1e-6);
 }
 
 TEST(HeightShadows, BeyondTheBorder) {
   HeightField field = field_of(16, 4, [](int x, int) { return x == 1 ? 8 : 0; });
   const Vec2 right(1, 0);
   field.x = WrapMode::wrap;
-  EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, kFloor), 8 / 4.0, 1e-9);
+  EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, least_slope), 8 / 4.0, 1e-9);
   field.x = WrapMode::mirror;
-  EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, kFloor), 8 / 17.0,
+  EXPECT_NEAR(HeightRays(field).horizon_slope(13, 2, right, least_slope), 8 / 17.0,
               1e-9);  // 15, 16 = 15, .. 30 = 1
   field.x = WrapMode::none;
-  EXPECT_EQ(HeightRays(field).horizon_slope(13, 2, right, kFloor), kFloor);
+  EXPECT_EQ(HeightRays(field).horizon_slope(13, 2, right, least_slope), least_slope);
 }
 
 TEST(HeightShadows, BeyondTheLastBorderTheWayEnds) {

@@ -73,9 +73,9 @@ TEST(Encode, LeftHandedSwapsTheSecondAndThirdChannel) {
 }
 
 TEST(Dither, KeepsTheMeanAndWhatLiesOnAStep) {
-  constexpr int kSide = 256;
+  constexpr int side = 256;
   for (const float value : {0.3333F, 0.1F, 0.50123F}) {
-    FloatImage image(kSide, kSide, 3);
+    FloatImage image(side, side, 3);
     for (float& v : image.data()) v = value;
     dither(image, Storage::u8, 1, 0);
     double sum = 0;
@@ -86,8 +86,8 @@ TEST(Dither, KeepsTheMeanAndWhatLiesOnAStep) {
       sum += v;
     }
     const double share = 255 * value - std::floor(255 * value);
-    const double standard_error = std::sqrt(share * (1 - share) / (kSide * kSide * 3)) / 255;
-    EXPECT_NEAR(sum / (kSide * kSide * 3), value, 4 * standard_error);
+    const double standard_error = std::sqrt(share * (1 - share) / (side * side * 3)) / 255;
+    EXPECT_NEAR(sum / (side * side * 3), value, 4 * standard_error);
   }
   FloatImage flat = encode(open_weights(), {});
   dither(flat, Storage::u8, 3, 0);

@@ -61,11 +61,11 @@ TEST(SlopeCurl, AWhirlHasItsCurl) {
 
 /// Independent slopes of variance s^2: central differences have s^2 / 2 each, the curl s^2.
 TEST(SlopeCurl, SlopesThatHaveNothingToDoWithEachOther) {
-  constexpr int kSide = 256;
+  constexpr int side = 256;
   std::mt19937 random(3);
   std::normal_distribution<double> slope(0, 0.2);
   const FloatImage normals =
-      normals_of_slopes(kSide, kSide, [&](int, int) { return std::pair(slope(random), slope(random)); });
+      normals_of_slopes(side, side, [&](int, int) { return std::pair(slope(random), slope(random)); });
   const SlopeCurl curl = slope_curl(normals, {});
   // Each mean square is of 65,536 values of which about half are independent: 1.5 % at 4 standard errors.
   EXPECT_NEAR(curl.relative, 1, 0.03);

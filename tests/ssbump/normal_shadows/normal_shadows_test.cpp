@@ -48,23 +48,23 @@ TEST(NormalShadows, WhereTheNormalFacesAwayThereIsNothingToShadow) {
 /// Light from the right over a roof: on flat ground left of it the true shadow ends run (rise / tan e - 1)
 /// texels from the foot. What the published sum makes of a slope is shorter by the normal's z.
 TEST(NormalShadows, ARoofCastsAShadowOfKnownLength) {
-  constexpr int kWidth = 512, kRun = 24, kFoot = kWidth / 2 - kRun;
+  constexpr int width = 512, run = 24, foot = width / 2 - run;
   for (const double rise : {0.7, 1.5, 3.0}) {
     for (const double elevation : {20.0, 30.0}) {
-      const FloatImage normals = normals_of_field(roof(kWidth, rise, kRun));
+      const FloatImage normals = normals_of_field(roof(width, rise, run));
       const Vec3 light = light_from(0, elevation);
-      const double length = kRun * (rise / std::tan(elevation * pi / 180) - 1);
+      const double length = run * (rise / std::tan(elevation * pi / 180) - 1);
       // Lookups half a texel apart. The sum may miss half a step of the slope at the foot and at the ridge,
       // and begins one step into the light; either moves the shadow's end by what light rises meanwhile.
       NormalShadowOptions options{.length = 0.5F, .steps = int(512 * light.x), .hard = true};
       options.border = Border::clamp;
-      const double step = 0.5 * kWidth * light.x / options.steps;
+      const double step = 0.5 * width * light.x / options.steps;
       const double near_enough = 1 + step * (1 + rise / std::tan(elevation * pi / 180));
       const FloatImage published = normal_shadows(normals, light, options);
-      EXPECT_NEAR(shadowed_left_of(published, kFoot), length / std::hypot(rise, 1), near_enough)
+      EXPECT_NEAR(shadowed_left_of(published, foot), length / std::hypot(rise, 1), near_enough)
           << rise << ", " << elevation;
       options.true_slopes = true;
-      EXPECT_NEAR(shadowed_left_of(normal_shadows(normals, light, options), kFoot), length, near_enough)
+      EXPECT_NEAR(shadowed_left_of(normal_shadows(normals, light, options), foot), length, near_enough)
           << rise << ", " << elevation;
     }
   }
@@ -93,32 +93,32 @@ TEST(NormalShadows, BeyondTheBorderTheMapGoesOnOrItsLastTexelDoes) {
 
 /// A map that is moved has its shadows moved with it: there is no seam.
 TEST(NormalShadows, TiledMapsHaveNoSeam) {
-  constexpr int kSide = 48;
-  const FloatImage normals = normals_of_field(waves(kSide, kSide));
-  FloatImage moved(kSide, kSide, 3);
-  const auto from = [](int at) { return (at + 19) % kSide; };
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  constexpr int side = 48;
+  const FloatImage normals = normals_of_field(waves(side, side));
+  FloatImage moved(side, side, 3);
+  const auto from = [](int at) { return (at + 19) % side; };
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
       std::ranges::copy(normals.texel(from(x), from(y)), moved.texel(x, y).begin());
   const FloatImage left = normal_shadows(normals, light_from(200, 25), {}),
                    moved_left = normal_shadows(moved, light_from(200, 25), {});
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) EXPECT_EQ(moved_left.texel(x, y)[0], left.texel(from(x), from(y))[0]);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) EXPECT_EQ(moved_left.texel(x, y)[0], left.texel(from(x), from(y))[0]);
 }
 
 TEST(NormalShadows, AMirroredMapUnderAMirroredLightIsMirrored) {
-  constexpr int kWidth = 64, kHeight = 40;
-  const HeightField field = waves(kWidth, kHeight);
+  constexpr int width = 64, height = 40;
+  const HeightField field = waves(width, height);
   const HeightField mirrored =
-      field_of(kWidth, kHeight, [&](int x, int y) { return field.heights.texel(kWidth - 1 - x, y)[0]; });
+      field_of(width, height, [&](int x, int y) { return field.heights.texel(width - 1 - x, y)[0]; });
   for (const double azimuth : {30.0, 75.0, 200.0}) {
     const FloatImage one = normal_shadows(normals_of_field(field), light_from(azimuth, 20), {});
     const FloatImage other = normal_shadows(normals_of_field(mirrored), light_from(180 - azimuth, 20), {});
     int differ = 0;  // rounding may tip a sum that is just about as high as an earlier one
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
-        differ += std::abs(one.texel(x, y)[0] - other.texel(kWidth - 1 - x, y)[0]) > 1e-5F ? 1 : 0;
-    EXPECT_LE(differ, kWidth * kHeight / 1000) << azimuth;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        differ += std::abs(one.texel(x, y)[0] - other.texel(width - 1 - x, y)[0]) > 1e-5F ? 1 : 0;
+    EXPECT_LE(differ, width * height / 1000) << azimuth;
   }
 }
 
@@ -145,20 +145,20 @@ float as_published(const FloatImage& normals, int x, int y, const Vec3& l, float
 }
 
 TEST(NormalShadows, DoesWhatThePublishedLinesDo) {
-  constexpr int kSide = 64;
-  const FloatImage normals = normals_of_field(waves(kSide, kSide));
+  constexpr int side = 64;
+  const FloatImage normals = normals_of_field(waves(side, side));
   const Vec3 light = light_from(128, 18);
   const FloatImage left = normal_shadows(normals, light, {});
   int differ = 0, shadowed = 0;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
       const float wanted = as_published(normals, x, y, light, 0.22F, 32);
       differ += std::abs(left.texel(x, y)[0] - wanted) > 1e-5F ? 1 : 0;
       shadowed += wanted < 1 ? 1 : 0;
     }
   }
-  EXPECT_GT(shadowed, kSide * kSide / 20);
-  EXPECT_LE(differ, kSide * kSide / 200);  // UVs are rounded to 1/1000 of a texel
+  EXPECT_GT(shadowed, side * side / 20);
+  EXPECT_LE(differ, side * side / 200);  // UVs are rounded to 1/1000 of a texel
 }
 
 TEST(NormalShadows, HardIsWhatSoftWouldDarkenAtAll) {
