@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Lack {
+struct Missing {
   std::string what, remedy;
 };
 
@@ -41,10 +41,10 @@ struct Machine {
 struct Findings {
   std::optional<BlenderInfo> blender;
   Machine machine;
-  std::vector<Lack> missing;
+  std::vector<Missing> missing;
 };
 
-Machine look_at_machine() {
+Machine probe_machine() {
   Machine machine;
   machine.threads = std::thread::hardware_concurrency();
   machine.memory_bytes = machine_memory();
@@ -56,7 +56,7 @@ Machine look_at_machine() {
   return machine;
 }
 
-void look_at_blender(const DoctorOptions& options, Findings& findings) {
+void check_blender(const DoctorOptions& options, Findings& findings) {
   try {
     BlenderInfo info = probe_version(find_blender(options.blender));
     probe_devices(info, ScriptFolder(options.scripts));
@@ -68,7 +68,7 @@ void look_at_blender(const DoctorOptions& options, Findings& findings) {
   }
 }
 
-void look_for_lacks(Findings& findings) {
+void find_missing(Findings& findings) {
   constexpr std::uintmax_t little_space = std::uintmax_t{1} << 30;
   if (findings.blender && !findings.blender->has_numpy) {
     findings.missing.push_back(
@@ -103,8 +103,8 @@ nlohmann::json as_json(const Findings& findings) {
       machine.memory_limit_bytes == 0 ? nlohmann::json() : nlohmann::json(machine.memory_limit_bytes);
   json["temp_folder"] = {{"path", machine.temp_folder.string()}, {"free_bytes", machine.temp_free_bytes}};
   json["missing"] = nlohmann::json::array();
-  for (const Lack& lack : findings.missing)
-    json["missing"].push_back({{"what", lack.what}, {"remedy", lack.remedy}});
+  for (const Missing& missing : findings.missing)
+    json["missing"].push_back({{"what", missing.what}, {"remedy", missing.remedy}});
   return json;
 }
 
@@ -135,8 +135,8 @@ void write_table(const Findings& findings, std::ostream& out) {
   line("memory", gibibytes(machine.memory_bytes) + limit);
   line("temp folder",
        fmt::format("{}, {} free", machine.temp_folder.string(), gibibytes(machine.temp_free_bytes)));
-  for (const Lack& lack : findings.missing)
-    out << fmt::format("\nmissing: {}\n    get: {}\n", lack.what, lack.remedy);
+  for (const Missing& missing : findings.missing)
+    out << fmt::format("\nmissing: {}\n    get: {}\n", missing.what, missing.remedy);
   if (findings.missing.empty()) out << "\nnothing is missing\n";
 }
 
@@ -144,9 +144,9 @@ void write_table(const Findings& findings, std::ostream& out) {
 
 int doctor(const DoctorOptions& options, std::ostream& out) {
   Findings findings;
-  findings.machine = look_at_machine();
-  look_at_blender(options, findings);
-  look_for_lacks(findings);
+  findings.machine = probe_machine();
+  check_blender(options, findings);
+  find_missing(findings);
   if (options.json) {
     // A path need not be UTF-8; JSON must.
     out << as_json(findings).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

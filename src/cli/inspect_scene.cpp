@@ -23,7 +23,7 @@ const UvLayer& layer_of(const Mesh& mesh, int layer) {
   return mesh.uv_layers[static_cast<std::size_t>(layer)];
 }
 
-void look_at_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
+void report_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
   const Mesh& mesh = *inspected.mesh;
   const SceneObject& object = *inspected.object;
   const UvChoice choice = choose_lightmap_uv(mesh, settings, object.key);
@@ -59,7 +59,7 @@ InspectedObject inspect_object(const SceneSurvey& survey, const SceneObject& obj
   if (!inspected.not_baked.empty()) return inspected;
   try {
     const ObjectSettings settings = config.for_object(object.name, object.key);
-    look_at_uvs(inspected, settings);
+    report_uvs(inspected, settings);
     inspected.parts = split_mesh(*inspected.mesh, object.slots, settings.split).size();
   } catch (const Error& error) {  // a bake would stop here; inspecting goes on
     if (error.code() == ExitCode::usage) throw;

@@ -35,10 +35,10 @@ namespace {
 
 constexpr int traced_samples = 256, looked_up_samples = 16;
 
-/// The scene, ready to be looked at.
-class Stage {
+/// Exported scene with its tracer, its lightmaps, and the Blender that Cycles' pictures come from.
+class OpenScene {
  public:
-  Stage(const ResolvedConfig& config, const RenderFlags& flags)
+  OpenScene(const ResolvedConfig& config, const RenderFlags& flags)
       : config_(config),
         flags_(flags),
         blender_(config.globals),
@@ -163,11 +163,11 @@ int render(ResolvedConfig config, const RenderFlags& flags) {
   } else {
     AtomicFile(flags.output).write(" ");  // never committed: finds out now that nothing can be written there
   }
-  Stage stage(config, flags);
+  OpenScene scene(config, flags);
   if (flags.compare) {
-    write_comparison(stage.compare(), config, flags);
+    write_comparison(scene.compare(), config, flags);
   } else {
-    stage.write_picture();
+    scene.write_picture();
   }
   return static_cast<int>(ExitCode::ok);
 }

@@ -50,20 +50,20 @@ bool outshines_neighbours(const std::vector<float>& brightness, int width, int h
 
 }  // namespace
 
-std::vector<Fault> find_faults(const FloatImage& radiance, const FloatImage& coverage) {
+std::vector<TexelFault> find_faults(const FloatImage& radiance, const FloatImage& coverage) {
   const TexelMask covered = covered_mask(coverage);
   const std::vector<float> brightness = brightness_of(radiance, covered);
   const float median = median_of(brightness);
-  std::vector<Fault> faults(covered.size(), Fault::none);
+  std::vector<TexelFault> faults(covered.size(), TexelFault::none);
   std::size_t texel = 0;
   for (int y = 0; y < radiance.height(); ++y) {
     for (int x = 0; x < radiance.width(); ++x, ++texel) {
       if (covered[texel] == 0) continue;
       if (std::isnan(brightness[texel])) {
-        faults[texel] = Fault::non_finite;
+        faults[texel] = TexelFault::non_finite;
       } else if (brightness[texel] > firefly_ratio * median &&
                  outshines_neighbours(brightness, radiance.width(), radiance.height(), x, y)) {
-        faults[texel] = Fault::firefly;
+        faults[texel] = TexelFault::firefly;
       }
     }
   }
@@ -71,12 +71,12 @@ std::vector<Fault> find_faults(const FloatImage& radiance, const FloatImage& cov
 }
 
 std::size_t repair_faults(FloatImage& radiance, const FloatImage& coverage,
-                          const std::vector<Fault>& faults) {
+                          const std::vector<TexelFault>& faults) {
   const auto channels = static_cast<std::ptrdiff_t>(radiance.channels());
   TexelMask sound = covered_mask(coverage), fillable(sound.size());
   std::size_t count = 0;
   for (std::size_t texel = 0; texel < sound.size(); ++texel) {
-    if (faults[texel] == Fault::none) continue;
+    if (faults[texel] == TexelFault::none) continue;
     sound[texel] = 0;
     fillable[texel] = 1;
     ++count;

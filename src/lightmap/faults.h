@@ -9,7 +9,7 @@
 
 namespace rnmbake {
 
-enum class Fault : std::uint8_t {
+enum class TexelFault : std::uint8_t {
   none,
   non_finite,  // NaN or Inf in some channel
   firefly,     // one sample that found a bright light by luck
@@ -24,11 +24,12 @@ enum class Fault : std::uint8_t {
 inline constexpr float firefly_ratio = 8;
 
 /// One entry for each texel of `radiance`; uncovered texels are never at fault.
-[[nodiscard]] std::vector<Fault> find_faults(const FloatImage& radiance, const FloatImage& coverage);
+[[nodiscard]] std::vector<TexelFault> find_faults(const FloatImage& radiance, const FloatImage& coverage);
 
 /// Gives every texel at fault the mean of its sound covered neighbours, from the rim of a damaged area
 /// inwards; one that no sound texel can reach becomes 0. Sound texels never change. Returns how many were
 /// replaced.
-std::size_t repair_faults(FloatImage& radiance, const FloatImage& coverage, const std::vector<Fault>& faults);
+std::size_t repair_faults(FloatImage& radiance, const FloatImage& coverage,
+                          const std::vector<TexelFault>& faults);
 
 }  // namespace rnmbake

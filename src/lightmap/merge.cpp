@@ -97,9 +97,9 @@ void treat_faults(Colours& colours, bool repair, MergeCounts& counts) {
   for (BasisBake& basis : colours.bases) {
     const auto faults = find_faults(basis.radiance, colours.coverage);
     for (std::size_t texel = 0; texel < faults.size(); ++texel) {
-      if (faults[texel] == Fault::non_finite) non_finite[texel] = 1;
-      if (faults[texel] == Fault::firefly) firefly[texel] = 1;
-      if (repair && faults[texel] != Fault::none) repaired[texel] = 1;
+      if (faults[texel] == TexelFault::non_finite) non_finite[texel] = 1;
+      if (faults[texel] == TexelFault::firefly) firefly[texel] = 1;
+      if (repair && faults[texel] != TexelFault::none) repaired[texel] = 1;
     }
     if (repair) repair_faults(basis.radiance, colours.coverage, faults);
   }

@@ -8,7 +8,7 @@ namespace rnmbake {
 /// loop without end counts, and waiting for others on a crowded machine does not.
 class StallWatch {
  public:
-  explicit StallWatch(double now) : last_look_(now) {}
+  explicit StallWatch(double now) : last_check_(now) {}
 
   /// A look at the process: seconds on the clock, CPU seconds of its whole tree so far, whether one of its
   /// threads runs or could, whether it progressed since the last look.
@@ -20,7 +20,7 @@ class StallWatch {
   static constexpr double longest_gap = 2;
 
  private:
-  double last_look_, stalled_ = 0, cpu_seconds_ = 0;
+  double last_check_, stalled_ = 0, cpu_seconds_ = 0;
 };
 
 }  // namespace rnmbake

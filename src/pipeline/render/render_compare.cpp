@@ -40,87 +40,56 @@ struct Halves {
   }
 };
 
-class ViewRun {
- public:
-  ViewRun(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
-          const SceneLightmaps& lightmaps, const ViewCompareOptions& options)
-      : session_(session),
-        exported_(exported),
-        scene_(scene),
-        lightmaps_(lightmaps),
-        options_(options),
-        half_(std::max(1, options.render.view.samples / 2)) {}
-
-  ViewComparison run() {
-    truth_ = truth();
-    ViewComparison view;
-    view.name = camera_of(exported_.diffuse_scene).name;
-    view.pictures.push_back({"truth", truth_.mean()});
-    if (options_.with_cycles && exported_.blends)
-      view.pictures.push_back(judged(options_.own_materials ? "Cycles, own materials" : "Cycles", cycles()));
-    for (const Decoded& decode : decodes) {
-      if (const auto why = lightmaps_.obstacle(decode.variant)) {
-        log::warn("no picture '{}': {}", decode.label, *why);
-        continue;
-      }
-      view.pictures.push_back(judged(decode.label, decoded(decode.variant)));
-    }
-    return view;
-  }
-
- private:
-  /// The first half has the camera rays of the decoded pictures.
-  [[nodiscard]] Halves truth() {
-    RenderOptions options = options_.render;
-    options.view.samples = half_;
-    View first = render_view(scene_, &lightmaps_, {Lighting::Kind::truth, {}}, options);
-    options.view.seed = hash_of(options.view.seed, 1);
-    View second = render_view(scene_, &lightmaps_, {Lighting::Kind::truth, {}}, options);
-    coverage_ = std::move(first.coverage);
-    return {std::move(first.beauty), std::move(second.beauty)};
-  }
-
-  [[nodiscard]] Halves decoded(DecodeVariant variant) const {
-    RenderOptions options = options_.render;
-    options.view.samples = std::min(looked_up_samples, options.view.samples);
-    return {render_view(scene_, &lightmaps_, {Lighting::Kind::decoded, variant}, options).beauty, {}};
-  }
-
-  [[nodiscard]] Halves cycles() const {
-    const ViewOptions& view = options_.render.view;
-    const int seed = session_.settings().object.seed;
-    std::vector<FloatImage> pictures = render_cycles(session_, exported_,
-                                                     {view.width,
-                                                      view.height,
-                                                      half_,
-                                                      session_.settings().bake.bounces,
-                                                      {seed, seed + 1},
-                                                      options_.own_materials});
-    return {std::move(pictures[0]), std::move(pictures[1])};
-  }
-
-  [[nodiscard]] ViewPicture judged(const std::string& label, const Halves& halves) const {
-    PictureComparison comparison;
-    comparison.add(halves.compared(), truth_.compared(), {{&coverage_, 0.5F}});
-    const PictureMetrics metrics = comparison.metrics();
-    ViewPicture picture{label, halves.mean()};
-    picture.has_error = metrics.texels > 0 && metrics.reference_mean > 0;
-    picture.rmse = metrics.rmse.value;
-    picture.relative_rmse = metrics.relative_rmse.value;
-    picture.bias = metrics.bias.value;
-    picture.relative_bias = metrics.relative_bias.value;
-    return picture;
-  }
-
-  BlenderSession& session_;
-  const ExportResult& exported_;
-  const TraceScene& scene_;
-  const SceneLightmaps& lightmaps_;
-  const ViewCompareOptions& options_;
-  int half_;
-  Halves truth_;
-  FloatImage coverage_;
+/// Traced pictures of the view; pixels without a surface have coverage 0.
+struct Truth {
+  Halves halves;
+  FloatImage coverage;
 };
+
+int half_of(int samples) {
+  return std::max(1, samples / 2);
+}
+
+/// Gives the first half the camera rays of the decoded pictures.
+Truth trace(const TraceScene& scene, const SceneLightmaps& lightmaps, RenderOptions options) {
+  options.view.samples = half_of(options.view.samples);
+  View first = render_view(scene, &lightmaps, {Lighting::Kind::truth, {}}, options);
+  options.view.seed = hash_of(options.view.seed, 1);
+  View second = render_view(scene, &lightmaps, {Lighting::Kind::truth, {}}, options);
+  return {{std::move(first.beauty), std::move(second.beauty)}, std::move(first.coverage)};
+}
+
+Halves decode(const TraceScene& scene, const SceneLightmaps& lightmaps, DecodeVariant variant,
+              RenderOptions options) {
+  options.view.samples = std::min(looked_up_samples, options.view.samples);
+  return {render_view(scene, &lightmaps, {Lighting::Kind::decoded, variant}, options).beauty, {}};
+}
+
+Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewCompareOptions& options) {
+  const ViewOptions& view = options.render.view;
+  const int seed = session.settings().object.seed;
+  std::vector<FloatImage> pictures = render_cycles(session, exported,
+                                                   {view.width,
+                                                    view.height,
+                                                    half_of(view.samples),
+                                                    session.settings().bake.bounces,
+                                                    {seed, seed + 1},
+                                                    options.own_materials});
+  return {std::move(pictures[0]), std::move(pictures[1])};
+}
+
+ViewPicture compared(const std::string& label, const Halves& halves, const Truth& truth) {
+  PictureComparison comparison;
+  comparison.add(halves.compared(), truth.halves.compared(), {{&truth.coverage, 0.5F}});
+  const PictureMetrics metrics = comparison.metrics();
+  ViewPicture picture{label, halves.mean()};
+  picture.has_error = metrics.texels > 0 && metrics.reference_mean > 0;
+  picture.rmse = metrics.rmse.value;
+  picture.relative_rmse = metrics.relative_rmse.value;
+  picture.bias = metrics.bias.value;
+  picture.relative_bias = metrics.relative_bias.value;
+  return picture;
+}
 
 }  // namespace
 
@@ -136,7 +105,22 @@ RenderOptions render_options(const Camera& camera, int longest) {
 
 ViewComparison compare_view(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
                             const SceneLightmaps& lightmaps, const ViewCompareOptions& options) {
-  return ViewRun(session, exported, scene, lightmaps, options).run();
+  const Truth truth = trace(scene, lightmaps, options.render);
+  ViewComparison view;
+  view.name = camera_of(exported.diffuse_scene).name;
+  view.pictures.push_back({"truth", truth.halves.mean()});
+  if (options.with_cycles && exported.blends) {
+    view.pictures.push_back(compared(options.own_materials ? "Cycles, own materials" : "Cycles",
+                                     cycles(session, exported, options), truth));
+  }
+  for (const auto& [label, variant] : decodes) {
+    if (const auto why = lightmaps.obstacle(variant)) {
+      log::warn("no picture '{}': {}", label, *why);
+      continue;
+    }
+    view.pictures.push_back(compared(label, decode(scene, lightmaps, variant, options.render), truth));
+  }
+  return view;
 }
 
 std::string finding_of(const ViewComparison& view) {

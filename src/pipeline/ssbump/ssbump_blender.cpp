@@ -49,15 +49,15 @@ class RawFile {
   std::ofstream stream_;
 };
 
-/// The picture is made of tiles, one for each direction, two in a row.
-struct Tiles {
+/// Atlas with one rectangle of the map's size for each direction, two in a row.
+struct DirectionAtlas {
   std::vector<Vec3> directions;
-  int width = 0, height = 0;  // of a tile
+  int width = 0, height = 0;  // pixels of each rectangle
 
   [[nodiscard]] int across() const { return directions.size() > 1 ? 2 : 1; }
   [[nodiscard]] int down() const { return (static_cast<int>(directions.size()) + 1) / 2; }
-  [[nodiscard]] int left(std::size_t tile) const { return width * (static_cast<int>(tile) % 2); }
-  [[nodiscard]] int top(std::size_t tile) const { return height * (static_cast<int>(tile) / 2); }
+  [[nodiscard]] int left(std::size_t rectangle) const { return width * (static_cast<int>(rectangle) % 2); }
+  [[nodiscard]] int top(std::size_t rectangle) const { return height * (static_cast<int>(rectangle) / 2); }
 };
 
 /// Blender's scene has the middle of the map at its origin, where floats are finest.
@@ -68,12 +68,12 @@ Vec3 middle_of(const HeightField& field) {
 /// A tiny quad over each texel's centre: Cycles averages over a texel, and this is a point.
 class PointReceivers {
  public:
-  PointReceivers(const HeightField& field, const Tiles& tiles) : field_(field), tiles_(tiles) {
+  PointReceivers(const HeightField& field, const DirectionAtlas& atlas) : field_(field), atlas_(atlas) {
     const auto extent = static_cast<float>(std::max(field.width(), field.height())) / 2;
     half_ = std::max(least_quad, steps_across * std::numeric_limits<float>::epsilon() * extent);
-    for (std::size_t tile = 0; tile < tiles.directions.size(); ++tile) {
+    for (std::size_t rectangle = 0; rectangle < atlas.directions.size(); ++rectangle) {
       for (int y = 0; y < field.height(); ++y) {
-        for (int x = 0; x < field.width(); ++x) add(tile, x, y);
+        for (int x = 0; x < field.width(); ++x) add(rectangle, x, y);
       }
     }
   }
@@ -103,22 +103,22 @@ class PointReceivers {
     return half_ * (1 + 2 * steepest);
   }
 
-  void add(std::size_t tile, int x, int y) {
+  void add(std::size_t rectangle, int x, int y) {
     const Vec3 place(static_cast<float>(x), static_cast<float>(-y),
                      field_.heights.texel(x, y)[0] + lift(x, y));
     const Vec3 middle = place - middle_of(field_);
-    const auto across = static_cast<float>(tiles_.width * tiles_.across());
-    const auto down = static_cast<float>(tiles_.height * tiles_.down());
+    const auto across = static_cast<float>(atlas_.width * atlas_.across());
+    const auto down = static_cast<float>(atlas_.height * atlas_.down());
     for (const auto& [right, up] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
       positions_.push_back(middle + Vec3(right != 0 ? half_ : -half_, up != 0 ? half_ : -half_, 0));
-      normals_.push_back(tiles_.directions[tile]);
-      uvs_.emplace_back(static_cast<float>(tiles_.left(tile) + x + right) / across,
-                        1 - static_cast<float>(tiles_.top(tile) + y + 1 - up) / down);
+      normals_.push_back(atlas_.directions[rectangle]);
+      uvs_.emplace_back(static_cast<float>(atlas_.left(rectangle) + x + right) / across,
+                        1 - static_cast<float>(atlas_.top(rectangle) + y + 1 - up) / down);
     }
   }
 
   const HeightField& field_;
-  const Tiles& tiles_;
+  const DirectionAtlas& atlas_;
   float half_ = 0;
   std::vector<Vec3> positions_, normals_;
   std::vector<Vec2> uvs_;
@@ -174,11 +174,11 @@ class HeightMapBake {
  public:
   HeightMapBake(BlenderSession& session, const HeightField& field, const SsbumpBlenderOptions& options)
       : session_(session), field_(field), options_(options) {
-    tiles_.width = field.width();
-    tiles_.height = field.height();
-    tiles_.directions.emplace_back(0, 0, 1);
+    atlas_.width = field.width();
+    atlas_.height = field.height();
+    atlas_.directions.emplace_back(0, 0, 1);
     if (by_sky()) {
-      for (const Vec3& axis : rnm_basis()) tiles_.directions.push_back(axis);
+      for (const Vec3& axis : rnm_basis()) atlas_.directions.push_back(axis);
     }
   }
 
@@ -197,8 +197,8 @@ class HeightMapBake {
 
  private:
   [[nodiscard]] bool by_sky() const { return options_.lights == SsbumpBlenderOptions::Lights::sky; }
-  [[nodiscard]] int across() const { return tiles_.width * tiles_.across(); }
-  [[nodiscard]] int down() const { return tiles_.height * tiles_.down(); }
+  [[nodiscard]] int across() const { return atlas_.width * atlas_.across(); }
+  [[nodiscard]] int down() const { return atlas_.height * atlas_.down(); }
 
   [[nodiscard]] json request() const {
     json copies = json::array();
@@ -207,7 +207,7 @@ class HeightMapBake {
       copies.push_back({copy.sign_x, copy.sign_y, copy.shift_x + float(copy.sign_x - 1) * middle.x,
                         copy.shift_y + float(copy.sign_y - 1) * middle.y});
     }
-    const std::size_t corners = PointReceivers(field_, tiles_).write(folder_ / "receivers.f32");
+    const std::size_t corners = PointReceivers(field_, atlas_).write(folder_ / "receivers.f32");
     const double distance = lamp_distance * std::max(field_.width(), field_.height());
     json bakes = json::array({bake("sky", false), bake("sky", true)});
     if (!by_sky()) {
@@ -245,10 +245,10 @@ class HeightMapBake {
     for (int y = 0; y < field_.height(); ++y) {
       for (int x = 0; x < field_.width(); ++x) {
         const auto out = weights.texel(x, y);
-        for (std::size_t tile = 0; tile < tiles_.directions.size(); ++tile) {
-          const float value = picture.texel(tiles_.left(tile) + x, tiles_.top(tile) + y)[0];
-          if (tile > 0) out[tile - 1] = value;
-          if (tile == 0) out[SsbumpWeights::up] = out[SsbumpWeights::ambient] = value;
+        for (std::size_t rectangle = 0; rectangle < atlas_.directions.size(); ++rectangle) {
+          const float value = picture.texel(atlas_.left(rectangle) + x, atlas_.top(rectangle) + y)[0];
+          if (rectangle > 0) out[rectangle - 1] = value;
+          if (rectangle == 0) out[SsbumpWeights::up] = out[SsbumpWeights::ambient] = value;
         }
       }
     }
@@ -265,7 +265,7 @@ class HeightMapBake {
   BlenderSession& session_;
   const HeightField& field_;
   const SsbumpBlenderOptions& options_;
-  Tiles tiles_;
+  DirectionAtlas atlas_;
   fs::path folder_;
 };
 

@@ -32,11 +32,14 @@ void check_stop() {
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
 }
 
-class Run {
+/// Output files of one run, each written under a temporary name: a class, since all of them must stay open
+/// until the last is whole and write() puts them in place together.
+class SsbumpOutputs {
  public:
-  Run(const SsbumpRunOptions& options, Progress& progress) : options_(options), progress_(progress) {}
+  SsbumpOutputs(const SsbumpRunOptions& options, Progress& progress)
+      : options_(options), progress_(progress) {}
 
-  SsbumpRunSummary go() {
+  SsbumpRunSummary write() {
     check_outputs();
     step("read", [&] { read(); });
     if (options_.filter_radius > 0) step("filter", [&] { filter(); });
@@ -55,15 +58,12 @@ class Run {
     check_stop();
   }
 
-  /// What would otherwise be found out after the work.
+  /// Refuses unknown file endings and depths before the work, not after it.
   void check_outputs() const {
     (void)storage_of(options_.output.file, options_.output.bits);
     for (const auto& file : {options_.normal, options_.dump_height})
-      if (!file.empty()) (void)storage_of(file, bits_of_others());
+      if (!file.empty()) (void)storage_of(file, options_.output.bits);
   }
-
-  /// Heights and normals want more than the 8 bits of what is looked at.
-  [[nodiscard]] SsbumpBits bits_of_others() const { return options_.output.bits; }
 
   void read() {
     progress_.update(0, "reading " + options_.input.string());
@@ -145,7 +145,7 @@ class Run {
 
   /// Filtered heights as the file had them: the full range of an integer format, or its floats.
   void dump_height() {
-    const Storage storage = storage_of(options_.dump_height, bits_of_others());
+    const Storage storage = storage_of(options_.dump_height, options_.output.bits);
     PictureForm form{field_.width(), field_.height(), {"Y"}, storage, {}};
     form.attributes["ImageDescription"] = fmt::format("heights; 1 is {:g} texels", summary_.heights.texels);
     const double texels = summary_.heights.texels;
@@ -159,7 +159,7 @@ class Run {
   }
 
   void write_normals() {
-    const Storage storage = storage_of(options_.normal, bits_of_others());
+    const Storage storage = storage_of(options_.normal, options_.output.bits);
     const bool y_down = options_.output.encoding.handed == Handed::left;
     write_rows(options_.normal, normal_map_form(field_.width(), field_.height(), storage, y_down),
                [&](int begin, int end) {
@@ -191,7 +191,7 @@ class Run {
 }  // namespace
 
 SsbumpRunSummary run_ssbump(const SsbumpRunOptions& options, Progress& progress) {
-  return Run(options, progress).go();
+  return SsbumpOutputs(options, progress).write();
 }
 
 }  // namespace rnmbake

@@ -15,7 +15,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr double worth_telling = 0.001;  // of the mean; smaller causes are left to the table
+constexpr double least_reported = 0.001;  // of the mean; smaller causes are left to the table
 constexpr double as_good_as_none = 0.003;
 
 /// Mean over bases. The interval is that of errors which go together, i.e. rather too wide.
@@ -75,7 +75,7 @@ std::string named(const std::vector<std::string>& not_followed) {
 }
 
 std::string named(const BounceLimit& limit) {
-  if (limit.bounces < 0 || std::abs(limit.relative_bias.value) < worth_telling) return "";
+  if (limit.bounces < 0 || std::abs(limit.relative_bias.value) < least_reported) return "";
   return fmt::format("; the bounce limit of {} costs {:+.1f} %", limit.bounces,
                      100 * limit.relative_bias.value);
 }
@@ -136,16 +136,17 @@ std::string recipe_finding(const Decomposition& scene, const std::vector<std::st
   std::erase_if(causes, [&](const auto& cause) {
     if (cause.first == "residual") residual = cause.second;
     return cause.first == "residual" || cause.first == "noise" ||
-           std::abs(cause.second.value) < worth_telling;
+           std::abs(cause.second.value) < least_reported;
   });
   std::ranges::stable_sort(causes, std::ranges::greater{},
                            [](const auto& cause) { return std::abs(cause.second.value); });
-  std::string causes_told;
+  std::string reported_causes;
   for (const auto& [name, value] : causes)
-    causes_told += fmt::format("{}{} {:+.1f} %", causes_told.empty() ? "" : ", ", name, 100 * value.value);
+    reported_causes +=
+        fmt::format("{}{} {:+.1f} %", reported_causes.empty() ? "" : ", ", name, 100 * value.value);
   const bool followed = not_followed.empty() || !is_off(residual);
   return fmt::format("flat-normal-map: {:+.1f} % on average{}{}; {} {}", 100 * mean(totals).value,
-                     causes_told.empty() ? "" : ", from ", causes_told,
+                     reported_causes.empty() ? "" : ", from ", reported_causes,
                      followed ? "unexplained" : "not followed by the reference", percent(residual, true));
 }
 

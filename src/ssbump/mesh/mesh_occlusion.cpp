@@ -77,7 +77,7 @@ class Measurement {
       sum.behind += detail->behind ? 1 : 0;
       sum.height += detail->height;
       sum.normal += place.frame.to_tangent(detail->normal);
-      look_around(*detail, place.frame, rays_.set(number), sum);
+      add_visibility(*detail, place.frame, rays_.set(number), sum);
     }
     return sum;
   }
@@ -117,8 +117,8 @@ class Measurement {
     return detail;
   }
 
-  void look_around(const Detail& detail, const Frame& frame, const std::vector<WeightedRay>& rays,
-                   TexelSum& sum) const {
+  void add_visibility(const Detail& detail, const Frame& frame, const std::vector<WeightedRay>& rays,
+                      TexelSum& sum) const {
     const float far =
         options_.reach > 0 ? static_cast<float>(options_.reach) : std::numeric_limits<float>::infinity();
     const Vec3 origin = detail.position + detail.face * lift(detail.position, diagonal_);
