@@ -9,7 +9,7 @@ build_packages=(
 )
 blender_packages=(blender python3-numpy)
 style_packages=(clang-format pyflakes3)
-test_packages=("${build_packages[@]}" "${blender_packages[@]}" python3-jsonschema chromium)
+test_packages=("${build_packages[@]}" "${blender_packages[@]}" python3-jsonschema chromium glslang-tools)
 
 die() {
   echo "dev: $*" >&2
