@@ -49,7 +49,7 @@ CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings&
   return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
 }
 
-/// What the version's bakes average a texel over (docs/accuracy.md).
+/// Footprint of a texel in that version's bakes (docs/accuracy.md).
 const char* footprint(const BlenderVersion& version) {
   return version.major >= 5 ? "texel" : "half texel";
 }
@@ -60,13 +60,13 @@ double distance_of(const Surface& surface) {
   return surface.triangles.empty() ? 0 : Vec3d(surface.triangles.front().corners[0].position).length();
 }
 
-/// A target whose receivers stand too high.
+/// Target whose receivers stand more than coarse_height over their faces, for want of float digits.
 struct Coarse {
   std::size_t target;
   double distance;  // from the origin
 };
 
-/// The launches, and what the files and the manifest say of each target.
+/// Plan of the launches, with headers, horizon counts and receiver heights of each target.
 struct PlannedBake {
   Plan plan;
   std::vector<LightmapHeader> headers;  // [targets], as the following two
@@ -131,7 +131,7 @@ void plan_target(const BakeSettings& settings, const BakeSubject& subject, std::
   if (keep_surface) planned.headers[i].surface = surface;
 }
 
-/// Floats are too coarse there, in Cycles as everywhere.
+/// Warns of places where the step of a float is no small part of a texel, in Cycles as everywhere.
 void warn_of_coarse(const PlannedBake& planned, const std::vector<Target>& targets) {
   if (planned.coarse.empty()) return;
   const auto& worst = *std::ranges::max_element(planned.coarse, {},
@@ -144,7 +144,8 @@ void warn_of_coarse(const PlannedBake& planned, const std::vector<Target>& targe
       targets[worst.target].key, more, worst.distance, planned.heights[worst.target]);
 }
 
-/// Cycles moves rays by lengths of its own, however small the scene.
+/// Warns of targets without fences: Cycles moves the start of rays by lengths that do not shrink with the
+/// scene.
 void warn_of_small(const std::vector<std::string>& small) {
   if (small.empty()) return;
   log::warn(
@@ -153,7 +154,8 @@ void warn_of_small(const std::vector<std::string>& small) {
       first_names(small));
 }
 
-/// Cycles asks no surface whether it blocks them: a receiver does not know what is under its face.
+/// Warns of lights without shadow: Cycles sends them no shadow rays, so that they reach receivers through
+/// their own face, too.
 void warn_of_shadowless(const std::vector<LightInfo>& lights) {
   for (const LightInfo& light : lights) {
     if (std::ranges::find(light.outside_model, "no shadow") == light.outside_model.end()) continue;

@@ -14,13 +14,13 @@
 
 namespace rnmbake {
 
-/// What a bake came to.
+/// Result of a bake.
 struct BakeOutcome {
   std::vector<Delivery> deliveries;  // [targets]
   BakeTimings timings;
 };
 
-/// What is baked, in which file. Several bakes of one scene share it.
+/// Targets, bases and scene files of a bake; shared by several bakes of one scene.
 struct BakeSubject {
   const SceneSurvey& survey;
   const TargetList& list;

@@ -27,16 +27,16 @@ struct Attempt {
   int retries_left = 0;
 };
 
-/// Launches that hung, none having succeeded: then it is the scene, and looking for an object is in vain. Two
-/// offenders, one in each half, come as far as four.
+/// Number of hung launches, without one that succeeded, after which the scene counts as the cause and no
+/// single object is sought. Two offenders, one in each half, hang four launches at most.
 constexpr int hangs_of_a_scene = 5;
 
-/// Every launch opens the scene alike, whatever it was to bake.
+/// Whether the launch hung while it opened the scene, which does not depend on its batch.
 bool is_before_baking(const LaunchFailure& failure) {
   return failure.kind == LaunchFailure::Kind::hung && (failure.phase.empty() || failure.phase == "load");
 }
 
-/// Texels x samples: what the time of a bake is proportional to.
+/// Texels x samples, to which the time of a bake is proportional.
 double work_of(const Batch& batch, const Plan& plan) {
   double work = 0;
   for (const std::size_t task : batch.tasks) {
@@ -139,7 +139,8 @@ class Dispatcher {
     if (!session_.settings().output.keep_temporary) fs::remove_all(launch.folder);
   }
 
-  /// A launch whose pictures are missing or short failed, whatever it said; a smaller one may do.
+  /// Pictures of a launch; a failure where some are missing or short, whatever its result says. A smaller
+  /// launch may succeed.
   std::variant<std::vector<FloatImage>, LaunchFailure> rects_of(const BatchLayout& layout,
                                                                 const fs::path& folder) const {
     try {
@@ -159,7 +160,7 @@ class Dispatcher {
     return receiver_request(context_, batch, atlas_pixels_for(settings, context_, batch, jobs_), folder);
   }
 
-  /// A target that was given up takes its other tasks with it.
+  /// Removes tasks of targets that were given up.
   void drop_settled(Batch& batch) const {
     std::erase_if(batch.tasks,
                   [&](std::size_t task) { return collector_.is_settled(context_.plan.tasks[task].target); });
@@ -183,7 +184,7 @@ class Dispatcher {
     give_up(attempt.batch, fmt::format("basis {}: {}", task.name, describe(failure)));
   }
 
-  /// What every other launch would meet, too.
+  /// Whether the failure (a stop, a full disk, a missing device) would end every other launch, too.
   static bool is_hopeless(const LaunchFailure& failure) {
     return failure.kind == LaunchFailure::Kind::stopped ||
            (failure.kind == LaunchFailure::Kind::refused &&
@@ -206,7 +207,7 @@ class Dispatcher {
       verdict_ = fmt::format("{} launches hung, whatever they were to bake: {}", hangs_, describe(failure));
   }
 
-  /// Where the verdict on the scene has been spoken.
+  /// Gives up the batch's targets where the scene itself counts as the cause of hangs.
   bool given_up(const Batch& batch) {
     std::unique_lock lock(mutex_);
     if (verdict_.empty()) return false;
@@ -219,7 +220,7 @@ class Dispatcher {
     for (const std::size_t task : batch.tasks) collector_.give_up(context_.plan.tasks[task].target, reason);
   }
 
-  /// Behind what waits already: a launch that succeeds tells more than one that fails again.
+  /// Appends to the queue: retries run last, since a first success elsewhere shows that the scene is sound.
   void enqueue(Attempt attempt) {
     const std::lock_guard lock(mutex_);
     queue_.push_back(std::move(attempt));

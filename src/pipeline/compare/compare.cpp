@@ -19,7 +19,7 @@ namespace {
 
 constexpr float sound_validity = 0.5F;  // a texel of this validity or more counts as sound in the report
 
-/// What is open on one side.
+/// Folders of one side, opened.
 struct Side {
   const CompareSide& asked;
   LightmapFolder folder;
@@ -35,7 +35,7 @@ struct Side {
   }
 };
 
-/// For each texel; 0 where the error decided, and the file does not say how many it took.
+/// Paths of each texel; 0 where --error decided, for the file does not record their number.
 double paths_of(const LightmapMetadata& metadata) {
   return metadata.error > 0 ? 0 : metadata.samples;
 }
@@ -55,7 +55,7 @@ struct SideLightmap {
   }
 };
 
-/// Of two single files the keys do not matter.
+/// Lightmap of the same key; of a single file, its only one.
 const LightmapPlace* partner(const LightmapFolder& folder, const std::string& key) {
   return folder.single_file ? &folder.places.front() : folder.find(key);
 }

@@ -1,5 +1,5 @@
-// pipeline/lightmaps/bake_collector.h - collects what was baked and writes a target's lightmap as soon as all
-// of it is there.
+// pipeline/lightmaps/bake_collector.h - collects baked pictures and writes a target's lightmap as soon as all
+// of its tasks are complete.
 #pragma once
 
 #include "bake/plan.h"
@@ -14,7 +14,8 @@
 
 namespace rnmbake {
 
-/// Thread-safe. Writing errors (a full disk) are thrown: they concern every target that is left.
+/// Thread-safe. Throws Error(io) where a file cannot be written: the remaining targets would meet the same
+/// disk.
 class BakeCollector {
  public:
   BakeCollector(const BakeContext& context, const OutputSettings& output,
@@ -23,7 +24,7 @@ class BakeCollector {
   /// Takes the pictures of a batch (in the layout's order); writes each target that became complete.
   void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures);
 
-  /// Gives a target up; what comes for it later is thrown away.
+  /// Gives a target up; later pictures of it are discarded.
   void give_up(std::size_t target, const std::string& reason);
 
   [[nodiscard]] bool is_settled(std::size_t target) const;

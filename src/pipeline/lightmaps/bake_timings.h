@@ -1,11 +1,11 @@
-// pipeline/lightmaps/bake_timings.h - what the launches of a bake cost.
+// pipeline/lightmaps/bake_timings.h - time and memory of a bake's launches.
 #pragma once
 
 #include <cstddef>
 
 namespace rnmbake {
 
-/// What the launches cost, summed over all of them.
+/// Sums over all launches.
 struct BakeTimings {
   int launches = 0, failed_launches = 0;
   double wall_seconds = 0;     // of the whole baking step

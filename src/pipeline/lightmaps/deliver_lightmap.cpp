@@ -33,7 +33,7 @@ void warn_about(const std::string& key, const MergeCounts& counts, bool repaired
   }
 }
 
-/// A map of which nothing can be used is no lightmap, and there is nothing to repair it from.
+/// Throws Error(tasks_failed) where no covered texel is finite: repairs need sound neighbours.
 void refuse_if_nothing_is_a_number(const std::string& key, const MergeCounts& counts) {
   if (counts.covered_texels == 0 || counts.non_finite < counts.covered_texels) return;
   fail(ExitCode::tasks_failed,

@@ -26,16 +26,16 @@ struct Delivered {
 struct NotDelivered {
   std::string reason;
 };
-/// How it ended for a target; empty: not yet.
+/// Outcome of a target; empty: not complete yet.
 using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
 
-/// Targets without a lightmap.
+/// Number of targets without a lightmap.
 [[nodiscard]] std::size_t count_failed(const std::vector<Delivery>& deliveries);
 
-/// One line for all lightmaps in which no texel got any light.
+/// Warns in one line of all lightmaps that are black.
 void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries);
 
-/// What a lightmap's files say of their target, and how they are filled.
+/// Name, metadata and dilation of a target's files.
 struct LightmapHeader {
   std::string stem;           // of its file names
   LightmapMetadata metadata;  // for the headers
@@ -47,8 +47,8 @@ struct LightmapHeader {
 /// where none is set, Error(io).
 void prepare_output(const OutputSettings& output);
 
-/// Merges, writes the header and the files; warns of what had to be mended. `header.metadata` lacks only its
-/// bases. Throws Error(io), and Error(tasks_failed) where no texel holds a number.
+/// Merges, writes the header and the files; warns of repaired texels. `header.metadata` lacks only its bases.
+/// Throws Error(io), and Error(tasks_failed) where no texel holds a number.
 [[nodiscard]] Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& header,
                                          const OutputSettings& output, ExtraLayers extra = {});
 

@@ -45,7 +45,8 @@ std::string object_key_of(const json& entry) {
   return part.empty() ? key : key.substr(0, key.size() - part.size() - 1);
 }
 
-/// What is said once for all lightmaps of a run, and no longer holds for all of them.
+/// Entries of the manifest that describe a whole run; kept for each earlier lightmap, since the new run has
+/// others.
 json facts_of_run(const json& manifest) {
   json facts;
   for (const char* name :
@@ -161,7 +162,7 @@ class Search {
     differ("list of bases", manifest_.at("bases"), to_json(run_.bases));
   }
 
-  /// Why a lightmap no longer belongs to the scene; "" where it does, and then `one` is filled.
+  /// Reason why a lightmap no longer belongs to the scene; "" where it does. Fills `one` then.
   std::string misfit(const Candidate& candidate, const std::string& saved, EarlierLightmap& one) {
     const SceneObject* object = find_object(survey_, candidate.object_key);
     if (object == nullptr) return "the scene has no such object any more";

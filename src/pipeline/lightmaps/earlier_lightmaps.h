@@ -18,8 +18,8 @@ namespace rnmbake {
 
 struct EarlierLightmap {
   std::size_t object = 0;  // index into SceneSurvey::objects
-  nlohmann::json entry;    // of the manifest; "earlier" holds what was true of that whole run
-  Uvs uv;                  // what was unwrapped then; null: the object's own, or in no file
+  nlohmann::json entry;    // of the manifest; "earlier" holds the facts of that whole run
+  Uvs uv;                  // unwrapped by that run; null: the object's own, or in no file
 };
 
 struct EarlierLightmaps {
@@ -29,18 +29,18 @@ struct EarlierLightmaps {
   /// What its files are called before their endings.
   [[nodiscard]] std::vector<std::string> stems() const;
 
-  /// `of_targets`, and what the saved scene has to hold besides.
+  /// `of_targets` and the unwrapped UVs of these lightmaps, all of which the saved scene has to hold.
   [[nodiscard]] std::vector<SavedUvs> add_to(std::vector<SavedUvs> of_targets) const;
 };
 
-/// What this run is about to write, to tell what goes with it.
+/// Command and bases of this run; lightmaps of others do not fit its manifest.
 struct RunKind {
   std::string kind;  // bake, reference
   const std::vector<BasisDirection>& bases;
 };
 
 /// Reads the output folder's manifest, and where something was unwrapped then the scene that was saved (one
-/// launch). Whatever no longer fits the scene is left out, with a warning. Throws Error(usage) where
+/// launch). Lightmaps that no longer fit the scene are left out, with a warning. Throws Error(usage) where
 /// lightmaps of both runs cannot stand in one manifest: other bases, another scene.
 [[nodiscard]] EarlierLightmaps find_earlier(BlenderSession& session, const RunKind& run,
                                             const SceneSurvey& survey, const std::vector<Target>& targets);

@@ -39,7 +39,7 @@ LightmapPlace place_of(const std::filesystem::path& manifest, const json& entry)
   return place;
 }
 
-/// Warnings, and what is outside the model besides objects, which carry their own list: "light 'Lamp': node
+/// Warnings, and lamps and world outside the model (objects carry lists of their own): "light 'Lamp': node
 /// tree".
 std::vector<std::string> notes_of(const json& manifest) {
   auto notes = manifest.value("warnings", std::vector<std::string>{});

@@ -14,7 +14,7 @@ namespace rnmbake {
 struct LightmapPlace {
   std::string key;
   std::vector<std::filesystem::path> files;  // one, or one for each layer
-  std::vector<std::string> outside_model;    // what a reference could not trace there
+  std::vector<std::string> outside_model;    // not traced by a reference: "glossy", ...
 };
 
 struct LightmapFolder {

@@ -66,7 +66,7 @@ void add_to_object(const ReferenceRecord& reference, const ManifestInput& input,
   entry["standard_error"] = reference.traced[index].error;
 }
 
-/// -1 where the layer was made.
+/// Index of the lightmap's layer in the user's scene; -1: unwrapped, not in it.
 int index_in_source(const Target& target, const Mesh& mesh) {
   const auto found = std::ranges::find(mesh.uv_layers, target.uv_layer, &UvLayer::name);
   return target.unwrapped ? -1 : static_cast<int>(found - mesh.uv_layers.begin());
@@ -133,7 +133,7 @@ void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings
   manifest["timings"] = {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};
 }
 
-/// Where the saved scene has an object's lightmap: "" and -1 where there is none.
+/// Object and UV layer of a lightmap in the saved scene; "" and -1 where that was not saved.
 void add_place(const SavedScene& saved, std::size_t object, json& entry) {
   const auto found = saved.objects.find(object);
   const SavedPlace place = found == saved.objects.end() ? SavedPlace{} : found->second;

@@ -1,4 +1,4 @@
-// pipeline/lightmaps/manifest.h - DIR/manifest.json: what was baked or traced, from what, how it went
+// pipeline/lightmaps/manifest.h - DIR/manifest.json: targets, their source, settings and outcome
 // (docs/manifest.md).
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace rnmbake {
 
-/// What only a bake has to say.
+/// Entries of a bake alone.
 struct BakeRecord {
   const std::vector<HorizonCounts>& horizons;  // [targets]
   const std::vector<double>& heights;          // [targets] of receivers over their faces, texels; 0: none
@@ -27,7 +27,7 @@ struct BakeRecord {
   BakeTimings timings;
 };
 
-/// What only a reference has to say.
+/// Entries of a reference alone.
 struct ReferenceRecord {
   std::string model;                // true, flat-normal-map
   std::vector<std::string> faults;  // of the latter
@@ -53,7 +53,7 @@ struct ManifestInput {
   std::variant<BakeRecord, ReferenceRecord> record;
 };
 
-/// Lists what this run made, and what an earlier one did and still fits, in the scene's order.
+/// Lists the lightmaps of this run, and those of an earlier one that still fit, in the scene's order.
 /// Everything except "timings" is the same whenever the same bake is run again.
 [[nodiscard]] nlohmann::json make_manifest(const ManifestInput& input);
 

@@ -1,5 +1,4 @@
-// pipeline/lightmaps/target_facts.h - what a bake and a reference say of a target alike: its surface, its
-// header.
+// pipeline/lightmaps/target_facts.h - surface and header of a target, for bake and reference alike.
 #pragma once
 
 #include "bake/targets.h"
@@ -14,11 +13,11 @@
 
 namespace rnmbake {
 
-/// Corners whose UVs say nothing of where the tangent points, over all targets.
+/// Number of corners whose UVs are degenerate, so that their tangent is arbitrary, over all targets.
 class LostDirections {
  public:
   void add(const Target& target, std::size_t corners);
-  /// One line for all of them.
+  /// Warns in one line.
   void warn() const;
 
  private:
@@ -30,16 +29,16 @@ class LostDirections {
 [[nodiscard]] Surface surface_of(const SceneSurvey& survey, const Target& target, LostDirections& lost,
                                  const Vec3d& origin = Vec3d(0));
 
-/// All of the header that the target and its settings decide; recipe, horizon, footprint, bounces and
-/// Blender's version are the caller's.
+/// Header entries that follow from target and settings; the caller adds recipe, horizon, footprint, bounces
+/// and Blender's version.
 [[nodiscard]] LightmapMetadata target_metadata(const Target& target, const ObjectSettings& object,
                                                const OutputSettings& output);
 
-/// The same for meshes of the same corners, faces and slots in the same order, wherever their vertices lie:
-/// those between which UVs can be exchanged. 32 hexadecimal digits.
+/// Hash of corners, faces and slots in their order, not of vertex positions: meshes with the same hash can
+/// exchange UVs. 32 hexadecimal digits.
 [[nodiscard]] std::string mesh_hash(const Mesh& mesh);
 
-/// Of a UV for each corner; the same only for the very same numbers.
+/// Hash of the UVs of all corners, bit by bit.
 [[nodiscard]] std::string uv_hash(const std::vector<Vec2>& uv);
 
 }  // namespace rnmbake

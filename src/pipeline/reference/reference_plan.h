@@ -1,4 +1,4 @@
-// pipeline/reference/reference_plan.h - what a reference emulates and how exact it gets, out of the settings.
+// pipeline/reference/reference_plan.h - model, Blender version and error of a reference, out of the settings.
 #pragma once
 
 #include "blender/probe.h"
@@ -11,7 +11,7 @@
 
 namespace rnmbake {
 
-/// What is the same for all targets of a reference. Samples and seed come with each target's settings.
+/// Settings that all targets of a reference share. Samples and seed are each target's own.
 struct ReferencePlan {
   std::string blender_version;  // whose light units, footprint, edges and faults
   Footprint footprint = Footprint::half;
@@ -43,7 +43,7 @@ struct NamedFault {
 /// Every fault, in the order in which validate adds one to those before it.
 [[nodiscard]] std::span<const NamedFault> all_faults();
 
-/// "tilt-clamp", "bump-shadowing", ...: those that are on.
+/// Names of the faults that are on: "tilt-clamp", "bump-shadowing", ...
 [[nodiscard]] std::vector<std::string> names_of(const RecipeFaults& faults);
 
 [[nodiscard]] const char* name_of(Footprint footprint);  // as headers say it: "half texel"

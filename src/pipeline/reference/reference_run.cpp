@@ -27,7 +27,7 @@
 namespace rnmbake {
 namespace {
 
-/// What has to be the same for targets that one call of gather() traces.
+/// Settings that targets of one call of gather() share.
 struct Kind {
   bool flip_green = false;
   int samples = 0, seed = 0;
@@ -44,7 +44,7 @@ void flip_harmonics(std::vector<FloatImage>& sh) {
   }
 }
 
-/// RMS of the texels' standard errors over the mean, of the direction where that is largest.
+/// RMS of the texels' standard errors over their mean; the largest of all directions.
 double relative_error(const Gathered& gathered) {
   double texels = 0, worst = 0;
   for (const float covered : gathered.coverage.data()) texels += covered;
@@ -57,7 +57,7 @@ double relative_error(const Gathered& gathered) {
   return worst;
 }
 
-/// What every step reads.
+/// Input of every step.
 struct ReferenceInput {
   const ReferenceSubject& subject;
   const BakeSettings& settings;
@@ -68,13 +68,13 @@ struct ReferenceInput {
   [[nodiscard]] int samples(std::size_t target) const {
     return plan.most_samples > 0 ? plan.most_samples : subject.list.settings[target].samples;
   }
-  /// What the time of a target is about proportional to.
+  /// Texels x samples, to which the time of a target is about proportional.
   [[nodiscard]] double work(std::size_t target) const {
     return double(targets()[target].width) * targets()[target].height * samples(target);
   }
 };
 
-/// What the targets become, one after the other.
+/// Headers, record and outcome, filled target by target.
 struct ReferenceResult {
   std::vector<LightmapHeader> headers;  // [targets]
   ReferenceRecord record;
@@ -139,7 +139,7 @@ GatherOptions options_for(const ReferenceInput& input, const Kind& kind) {
   return options;
 }
 
-/// One target's pictures as its files; why there are none is logged.
+/// Writes one target's files; logs the reason where there are none.
 Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bool y_down,
                    Gathered&& gathered) {
   // The number of paths cannot decide this: where the recipe bakes black none are traced.

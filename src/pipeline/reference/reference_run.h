@@ -15,7 +15,7 @@
 
 namespace rnmbake {
 
-/// What is traced. The scene is the tracer's; several references share it.
+/// Scene, targets and bases of a reference; shared by several references.
 struct ReferenceSubject {
   const TraceScene& scene;
   const TargetList& list;  // of the scene's objects; samples and seed as its settings say
@@ -30,8 +30,8 @@ struct ReferenceOutcome {
 };
 
 /// Traces all targets and writes each as soon as it is complete into the settings' output folder, named as a
-/// bake would name it; the manifest last. `title` heads the progress, `saved` goes into the manifest.
-/// Throws Interrupted, with what was complete in its place, and Error(io) where nothing more can be written.
+/// bake would name it; the manifest last. `title` heads the progress, `saved` goes into the manifest. Throws
+/// Interrupted, which leaves the complete lightmaps in place, and Error(io) where no file can be written.
 [[nodiscard]] ReferenceOutcome run_reference(const ReferenceSubject& subject, const BakeSettings& settings,
                                              const ReferencePlan& plan, const std::string& title = "tracing",
                                              const SavedScene& saved = {});

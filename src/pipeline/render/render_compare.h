@@ -21,14 +21,15 @@ struct ViewCompareOptions {
 [[nodiscard]] RenderOptions render_options(const Camera& camera, int longest = 960);
 
 /// Truth, Cycles (not for a scene without a .blend), single lightmap, RNM squared, linear and vrad, as far as
-/// the lightmaps allow; why one is missing is logged. Truth and Cycles are rendered in two independent
-/// halves, so that errors are free of their noise; they are over the pixels that show surfaces. Throws as
-/// render_view() and render_cycles().
+/// the lightmaps allow; logs the reason for each missing one. Truth and Cycles are rendered in two
+/// independent halves, so that errors are free of their noise; they are over the pixels that show surfaces.
+/// Throws as render_view() and render_cycles().
 [[nodiscard]] ViewComparison compare_view(BlenderSession& session, const ExportResult& exported,
                                           const TraceScene& scene, const SceneLightmaps& lightmaps,
                                           const ViewCompareOptions& options);
 
-/// What a report says of a view: "Cycles 1.2 %, single lightmap 24 %, ..." (RMSE, of the truth's mean).
+/// Sentence of a report about a view: "Cycles 1.2 %, single lightmap 24 %, ..." (RMSE, relative to the
+/// truth's mean).
 [[nodiscard]] std::string finding_of(const ViewComparison& view);
 
 }  // namespace rnmbake

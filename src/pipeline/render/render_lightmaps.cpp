@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Which object a key is of, and which of its triangles it means.
+/// Object of a key, and the triangles of its part.
 struct Owner {
   std::size_t object = 0;
   std::vector<std::uint32_t> triangles;

@@ -36,13 +36,13 @@ class SceneLightmaps {
   /// Index into placed(), -1: none. `triangle`: number of the mesh's triangle.
   [[nodiscard]] int find(std::size_t object, std::uint32_t triangle) const;
 
-  /// Whose tangent frames follow which UV layer.
+  /// UV layer of the tangent frames, by object.
   [[nodiscard]] const std::map<std::size_t, std::string>& tangent_layers() const { return tangent_layers_; }
 
-  /// Why these lightmaps cannot be decoded so; nothing where they can.
+  /// Reason why these lightmaps do not allow that decode; nothing where they do.
   [[nodiscard]] std::optional<std::string> obstacle(DecodeVariant variant) const;
 
-  /// One for each of placed(). Throws Error(unsupported) where there is an obstacle.
+  /// Decoders in the order of placed(). Throws Error(unsupported) where there is an obstacle.
   [[nodiscard]] std::vector<LightmapDecoder> decoders(DecodeVariant variant) const;
 
   /// Objects that the tracer shows and that have no lightmap.
@@ -55,8 +55,8 @@ class SceneLightmaps {
   std::vector<std::string> bare_;
 };
 
-/// The scene that the bake of `folder` saved because it had to unwrap objects: those UVs are in no other
-/// file. Nothing where it made none, or did not save them.
+/// Scene file with the unwrapped UVs of the bake in `folder`, which no other file holds; nothing where no UVs
+/// were unwrapped, or not saved.
 [[nodiscard]] std::optional<std::filesystem::path> scene_with_lightmap_uvs(
     const std::filesystem::path& folder);
 

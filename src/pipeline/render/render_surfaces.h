@@ -21,13 +21,13 @@ class RenderSurfaces {
   /// their normal map's. Throws Error(invalid_input) where an object lacks the layer.
   RenderSurfaces(const TraceScene& scene, const std::map<std::size_t, std::string>& tangent_layers);
 
-  /// What the material's normal map holds there: unit, tangent space, right-handed, Y up; +z without one.
+  /// Normal of the material's normal map there: unit, tangent space, right-handed, Y up; +z without one.
   [[nodiscard]] Vec3 mapped_normal(const Vertex& vertex) const;
 
   /// A tangent-space normal in world space, unit, on the side that the vertex is seen from.
   [[nodiscard]] Vec3 to_world(const Vertex& vertex, const Vec3& normal) const;
 
-  /// A value that every loop of the object's mesh has.
+  /// Interpolates a value of the mesh's loops at the vertex's barycentric weights.
   [[nodiscard]] Vec2 at(const Vertex& vertex, const std::vector<Vec2>& of_loops) const;
 
   [[nodiscard]] std::size_t object_of(const Vertex& vertex) const {

@@ -14,7 +14,7 @@ namespace rnmbake {
 /// How surfaces are lit.
 struct Lighting {
   enum class Kind {
-    decoded,  // albedo x decoded lightmap; what has none is traced
+    decoded,  // albedo x decoded lightmap; surfaces without one are traced
     truth,    // path traced, with each normal map's normal
     none,     // the albedo alone, as under white light from everywhere
   };

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The launch that writes down what a tracer needs of a lambert scene.
+/// Launches the export of a lambert scene.
 DiffuseScene launch_export(BlenderSession& session, const BlendPath& lambert) {
   const Launch launch = launch_on(session, "export_entry.py", "export", lambert);
   const nlohmann::json answer = session.run(launch);
@@ -30,8 +30,8 @@ void set_layer(Mesh& mesh, const std::string& name, const std::vector<Vec2>& uv)
   }
 }
 
-/// What was unwrapped becomes a layer of its mesh. Objects that share a mesh but not its scale have UVs of
-/// their own, and then a mesh of their own.
+/// Adds unwrapped UVs to their meshes as a layer. Objects that share a mesh at different scales have
+/// different UVs, and get meshes of their own.
 void keep_unwrapped(SceneSurvey& survey, const std::vector<Target>& targets) {
   std::map<std::size_t, const Target*> by_object;  // parts of an object share their UVs
   for (const Target& target : targets) {

@@ -1,5 +1,4 @@
-// pipeline/scene/export_scene.h - the scene as the reference tracer sees it, and what of it becomes
-// lightmaps.
+// pipeline/scene/export_scene.h - the scene for the reference tracer, and its targets.
 #pragma once
 
 #include "blender/blender_session.h"

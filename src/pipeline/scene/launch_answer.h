@@ -1,4 +1,4 @@
-// pipeline/scene/launch_answer.h - what a launch answered, read without trust.
+// pipeline/scene/launch_answer.h - answer of a launch, checked, for scenes may hold scripts.
 #pragma once
 
 #include <filesystem>

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
   return triangles;
 }
 
-/// An object that was selected, on its way to becoming targets.
+/// Selected object with its settings and UV layers.
 struct Candidate {
   std::size_t object = 0;
   ObjectSettings settings;
@@ -37,7 +37,7 @@ struct Candidate {
   Uvs uv;
 };
 
-/// One line for each kind of problem that does harm.
+/// Warns in one line of each kind of harmful problem.
 void warn_of_uv_problems(const std::vector<Target>& targets) {
   struct Group {
     std::size_t count = 0;
@@ -117,7 +117,8 @@ class TargetMaker {
     }
   }
 
-  /// The saved scene holds what is unwrapped in a layer of its own.
+  /// Throws Error(invalid_input) where the mesh has no room for the layer of unwrapped UVs in the saved
+  /// scene.
   void check_room_for_layer(const Mesh& mesh, const std::string& key) const {
     if (config_.globals.output.save_scene == OutputSettings::SaveScene::never) return;
     const bool is_there =

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Once it has opened: what Blender does not know it leaves out without a word.
+/// Warns of a scene from a later Blender, which this one opens without the data that it does not know.
 void warn_of_newer(const BlenderSession& session, const BlendPath& scene) {
   const std::string newer =
       newer_blend(scene.path(), session.blender().info(), "which leaves out what it does not know");

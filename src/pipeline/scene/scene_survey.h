@@ -22,34 +22,34 @@ struct SurveyResult {
   SceneBlends blends;
 };
 
-/// A file as a .blend: itself, or what Blender's importer makes of glTF and OBJ. The one step that opens what
-/// is no .blend; what the import could not carry over stands in the scene's warnings.
+/// A file as a .blend: itself, or imported from glTF or OBJ, which no other step opens. Losses of the import
+/// are in the scene's warnings.
 [[nodiscard]] BlendPath import_scene(BlenderSession& session, const std::filesystem::path& file);
 
-/// What any one file holds (.blend, glTF, OBJ), with its own materials; nothing is logged.
+/// Survey of a single file (.blend, glTF, OBJ) with its own materials; logs nothing.
 [[nodiscard]] SceneSurvey survey_file(BlenderSession& session, const std::filesystem::path& file);
 
-/// Imports, replaces the materials for --materials lambert, surveys. Logs what Blender warns of.
-/// Throws Error(invalid_input) where there is nothing with faces.
+/// Imports, replaces the materials for --materials lambert, surveys. Logs Blender's warnings. Throws
+/// Error(invalid_input) where no object has faces.
 [[nodiscard]] SurveyResult survey_scene(BlenderSession& session);
 
 /// The scene with every surface showing its own baked albedo and emission through a plain diffuse material.
 struct LambertScene {
   BlendPath blend;
-  std::vector<std::string> warnings;  // what is lost with the user's materials
+  std::vector<std::string> warnings;  // losses against the user's materials
 };
 
 /// Logs the warnings.
 [[nodiscard]] LambertScene make_lambert_scene(BlenderSession& session, const BlendPath& own);
 
-/// Puts lines that were logged before in front of the survey's warnings, and logs those that are new.
+/// Prepends `logged`, lines that were logged before, to the survey's warnings; logs the others.
 void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged = {});
 
-/// A launch that opens a scene, with the part of its request that says which one and in a folder of its own.
+/// Launch in a folder of its own that opens a scene, with that part of its request.
 [[nodiscard]] Launch launch_on(BlenderSession& session, const char* entry, const char* purpose,
                                const BlendPath& scene);
 
-/// The part of every request that says which scene it is about.
+/// Part of a request that names the scene.
 [[nodiscard]] nlohmann::json scene_request(const BlenderSession& session, const std::filesystem::path& scene);
 
 }  // namespace rnmbake

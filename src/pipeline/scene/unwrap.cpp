@@ -74,8 +74,8 @@ struct Narrowed {
   }
 };
 
-/// The size of a lightmap with texels_per_unit depends on the packing, and the margin's share on the size: a
-/// few packings bring them together.
+/// Packs until size and margin agree: with texels_per_unit the size follows from the packing, the margin's
+/// share of the square from the size.
 Uvs unwrap_one(const SceneObject& object, const Mesh& mesh, const ObjectSettings& settings,
                Narrowed& narrowed) {
   const double world = world_area(mesh, object.to_world);

@@ -1,5 +1,5 @@
-// pipeline/ssbump/decode_ssbump.h - what a shader makes of a self-shadowed bump map and a lightmap, on the
-// CPU.
+// pipeline/ssbump/decode_ssbump.h - light of a lightmap through a self-shadowed bump map, as a shader
+// computes it.
 #pragma once
 
 #include "image/float_image.h"

@@ -65,7 +65,7 @@ Vec3 middle_of(const HeightField& field) {
   return {0.5F * static_cast<float>(field.width() - 1), -0.5F * static_cast<float>(field.height() - 1), 0};
 }
 
-/// A tiny quad over each texel's centre: Cycles averages over a texel, and this is a point.
+/// Tiny quads over the texels' centres: Cycles averages over a texel, and the weights are defined at a point.
 class PointReceivers {
  public:
   PointReceivers(const HeightField& field, const DirectionAtlas& atlas) : field_(field), atlas_(atlas) {
@@ -89,7 +89,7 @@ class PointReceivers {
   }
 
  private:
-  /// High enough to clear the steepest way to a neighbour.
+  /// Height over the surface, texels, that clears the steepest slope to a neighbour.
   [[nodiscard]] float lift(int x, int y) const {
     const float here = field_.heights.texel(x, y)[0];
     float steepest = 0;
@@ -124,7 +124,7 @@ class PointReceivers {
   std::vector<Vec2> uvs_;
 };
 
-/// As fine as some millions of triangles allow.
+/// Finest cuts that keep the mesh to some millions of triangles.
 PatchCuts cuts_of(const HeightField& field) {
   const std::size_t texels = field.heights.texels();
   if (texels <= finely_cut) return PatchCuts::five;
@@ -231,7 +231,8 @@ class HeightMapBake {
     return {{"light", light}, {"open", open}, {"pixels", light + (open ? "-open" : "") + ".f32"}};
   }
 
-  /// With the surface over without it: the samples are the same, so that what nothing shades is 1 exactly.
+  /// Ratio of light with the surface to light without it. Both have the same samples, so that unoccluded
+  /// texels are exactly 1.
   [[nodiscard]] FloatImage share(const std::string& light) const {
     FloatImage shaded = read_pixels(folder_ / (light + ".f32"), across(), down());
     const FloatImage open = read_pixels(folder_ / (light + "-open.f32"), across(), down());

@@ -21,8 +21,8 @@ struct SsbumpBlenderOptions {
 /// Half the angle that an area light is seen under; it stands 50 map sizes away.
 inline constexpr double area_light_half_angle = 30;  // degrees
 
-/// The surface is height_mesh() with its copies, black. Error(unsupported) above 1024 x 1024 texels; throws
-/// what a failed launch stands for.
+/// The surface is height_mesh() with its copies, black. Throws Error(unsupported) above 1024 x 1024 texels,
+/// and as BlenderSession::run().
 [[nodiscard]] SsbumpWeights bake_height_map(BlenderSession& session, const HeightField& field,
                                             const SsbumpBlenderOptions& options);
 

@@ -75,7 +75,7 @@ std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
   return all;
 }
 
-/// The UV layer that the picture will be read with.
+/// UV layer of the map.
 std::size_t layer_of(const Mesh& mesh, const SceneObject& object, const std::string& wanted) {
   const auto named = std::find_if(mesh.uv_layers.begin(), mesh.uv_layers.end(),
                                   [&](const UvLayer& layer) { return layer.name == wanted; });
@@ -214,7 +214,7 @@ void check_uvs(const std::vector<LowSurface>& low, const SsbumpMeshOptions& opti
        who, counted(worst.texels, "texel"), 100 * share);
 }
 
-/// Says what found no detail. Throws where nothing did.
+/// Warns of texels without detail; throws Error(invalid_input) where all are.
 void report_misses(const SsbumpMesh& result) {
   std::size_t texels = 0, missed = 0, behind = 0, worst = 0;
   const auto& surfaces = result.maps.surfaces;
@@ -256,8 +256,8 @@ void renormalize(FloatImage& normals) {
   }
 }
 
-/// Gives what has no value that of its neighbours: inside the faces without limit, unless it is to be marked,
-/// outside `dilate` texels.
+/// Fills texels without a value from their neighbours: inside the faces without limit, unless they are to be
+/// marked; outside up to `dilate` texels.
 void fill(MeshOcclusion& maps, const SsbumpMeshOptions& options) {
   TexelMask valued = covered_mask(maps.found);
   TexelMask gaps = covered_mask(maps.covered), outside = gaps;

@@ -17,7 +17,7 @@ struct SsbumpMeshOptions {
 
   std::filesystem::path high;                  // .blend, .glb, .gltf, .obj
   std::vector<std::string> onto;               // such files, or patterns of objects in `high`
-  std::vector<std::string> high_objects{"*"};  // patterns; what is in `onto` is never part of it
+  std::vector<std::string> high_objects{"*"};  // patterns; objects of `onto` are excluded
   std::vector<std::string> low_objects{"*"};   // patterns, for the files of `onto`
   std::string uv;                              // layer of the low objects; "": the active-render one
   bool allow_overlap = false;                  // of UVs: the last face wins
@@ -33,9 +33,9 @@ struct SsbumpMesh {
   std::string blender_version;       // that read the meshes
 };
 
-/// Reads the meshes by Blender and measures. All low objects share one picture. Logs what missed.
-/// Throws Error(invalid_input) where a low object has no UVs, or they overlap, or no texel finds detail;
-/// Error(usage) where a pattern fits no object; Interrupted.
+/// Reads the meshes by Blender and measures. All low objects share one picture. Warns of texels without
+/// detail. Throws Error(invalid_input) where a low object has no UVs, or they overlap, or no texel finds
+/// detail; Error(usage) where a pattern fits no object; Interrupted.
 [[nodiscard]] SsbumpMesh measure_ssbump_mesh(BlenderSession& session, const SsbumpMeshOptions& options);
 
 }  // namespace rnmbake

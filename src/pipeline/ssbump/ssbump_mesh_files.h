@@ -1,5 +1,4 @@
-// pipeline/ssbump/ssbump_mesh_files.h - what was measured of a mesh, as the files that a height map would
-// have given.
+// pipeline/ssbump/ssbump_mesh_files.h - maps of a mesh, as the files of a height map.
 #pragma once
 
 #include "pipeline/ssbump/ssbump_mesh.h"

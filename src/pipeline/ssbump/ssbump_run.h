@@ -21,7 +21,7 @@ struct SsbumpRunOptions {
   int filter_radius = 10;             // 0: the heights as they are
   std::optional<double> filter_edge;  // in the file's values; none given: 3 % of their range
   GenerateOptions generate;           // its albedo_map is filled in
-  /// What makes the weights instead of `generate`; empty where that does. Called once.
+  /// Computes the weights in place of `generate`; may be empty. Called once.
   std::function<SsbumpWeights(const HeightField&)> baked;
   std::filesystem::path albedo;  // a colour texture of the map's size; may be empty
   bool modulate = true;          // whether the albedo's luminance multiplies the weights

@@ -11,7 +11,7 @@
 namespace rnmbake {
 namespace {
 
-/// Names of the rows that are no fault of the tracer's.
+/// Rows that no fault of the recipe explains.
 constexpr const char* not_lambertian = "non-Lambertian diffuse";
 constexpr const char* model_difference = "model difference";
 
@@ -124,7 +124,7 @@ BasisDecomposition rows_of(const std::string& basis, const Parts& parts) {
   return result;
 }
 
-/// The folders, and what of one object lies in them.
+/// Folders of all bakes and traces, from which load() takes one object's lightmaps.
 class Folders {
  public:
   explicit Folders(const DecomposeInput& input)
@@ -140,7 +140,7 @@ class Folders {
     return keys;
   }
 
-  /// Nothing where a folder lacks it.
+  /// Lightmaps of one object; nothing where a folder lacks it.
   [[nodiscard]] std::optional<LoadedObject> load(const std::string& key) const {
     if (!has(key)) return std::nullopt;
     LoadedObject object{load_lightmap(*truth_.find(key)), {}, recipe_.load(key), receiver_.load(key), {}, {}};

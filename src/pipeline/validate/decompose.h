@@ -31,7 +31,7 @@ struct DecomposeInput {
 /// Of the whole scene and then of each object that all folders have. With R the recipe's bake, C the
 /// receiver's, T the truth, E_k what was traced with the first k faults, and a dash for own materials:
 ///     R' - T = sum (E_k - E_k-1)  one row for each cause
-///            + (R' - C') - (R - C)  "non-Lambertian diffuse": what only the recipe sees of the own materials
+///            + (R' - C') - (R - C)  "non-Lambertian diffuse": own materials as the recipe alone sees them
 ///            + C' - C              "model difference": light that the reference's model does not carry
 ///            + R - E_n             "residual": what no cause explains
 /// with the noise taken out of every size; the "noise" row says how large that of R' is.

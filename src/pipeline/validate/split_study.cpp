@@ -56,7 +56,7 @@ std::size_t target_count(const Splitting& splitting) {
   return splitting.list.targets.size();
 }
 
-/// Every target of `whole` in the parts that `cut` makes of it.
+/// Targets of `whole`, each cut into parts by `cut`.
 template <typename Cut>
 TargetList cut_objects(const SceneSurvey& survey, const TargetList& whole, Cut cut) {
   TargetList list;

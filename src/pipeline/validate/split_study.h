@@ -1,5 +1,4 @@
-// pipeline/validate/split_study.h - what the published recipe gains from being baked in smaller pieces, and
-// what it costs.
+// pipeline/validate/split_study.h - error and time of the published recipe, baked in smaller pieces.
 #pragma once
 
 #include "pipeline/validate/variants.h"

@@ -29,7 +29,8 @@ Statistic mean(const std::vector<Statistic>& all) {
   return sum;
 }
 
-/// Beyond what matters and beyond what chance does to one of some hundred numbers: four standard errors.
+/// Whether a bias is larger than as_good_as_none and than four standard errors, which chance hardly exceeds
+/// among some hundred biases.
 bool is_off(const Statistic& bias) {
   const double four_errors = (bias.high95 - bias.low95) / 2 / 1.96 * 4;
   return std::abs(bias.value) > as_good_as_none && std::abs(bias.value) > four_errors;

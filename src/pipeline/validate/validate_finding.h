@@ -8,9 +8,9 @@
 
 namespace rnmbake {
 
-/// "receiver: no bias beyond the noise ...", or how many objects have one, and the worst; what the limit of
-/// bounces costs. `receiver` is held against the truth with that limit. Where Cycles has light that the
-/// reference does not follow, a difference is not called a bias.
+/// "receiver: no bias beyond the noise ...", or the number of biased objects and the worst; then the loss by
+/// the limit of bounces. `receiver` is held against the truth with that limit. Where Cycles has light that
+/// the reference does not follow, a difference is not called a bias.
 [[nodiscard]] std::string receiver_finding(const Report& receiver);
 
 /// "flat-normal-map: -13 % on average, of which bump shadowing ...; unexplained ...". Of the bases other than

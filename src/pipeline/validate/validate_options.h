@@ -1,4 +1,4 @@
-// pipeline/validate/validate_options.h - what a user chooses of a validation, beside the settings.
+// pipeline/validate/validate_options.h - options of a validation beside the settings.
 #pragma once
 
 #include <string>

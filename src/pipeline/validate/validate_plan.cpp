@@ -51,7 +51,7 @@ TargetList chosen(const ExportResult& exported, const std::vector<std::string>& 
   return list;
 }
 
-/// Objects whose materials the lambert scene only stands in for.
+/// Whether some object has a material that is not diffuse, for which the lambert scene has a substitute.
 bool has_own_materials(const DiffuseScene& scene) {
   return std::ranges::any_of(scene.outside, [](const OutsideModel& outside) {
     return outside.owner.starts_with("object ") && outside.what != outside.untraced;

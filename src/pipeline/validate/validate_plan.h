@@ -1,4 +1,4 @@
-// pipeline/validate/validate_plan.h - what a validation bakes and traces, decided before its first step.
+// pipeline/validate/validate_plan.h - bakes and traces of a validation, decided before its first step.
 #pragma once
 
 #include "pipeline/validate/decompose.h"
@@ -31,7 +31,7 @@ struct ValidatePlan {
   TraceScene scene;
   VariantBase base;
   TargetList decomposed;                  // what the published recipe bakes, too
-  bool own_materials;                     // some that the lambert scene only stands in for
+  bool own_materials;                     // some are not diffuse; the lambert scene has substitutes
   int bounce_limit;                       // of the bakes
   bool bounce_limit_counts;               // so that it is traced, too
   std::vector<std::string> not_followed;  // by the reference
@@ -40,12 +40,13 @@ struct ValidatePlan {
 
 [[nodiscard]] BakeVariant bake_variant(BakingSettings::Recipe recipe, SceneSettings::Materials materials);
 
-/// In the order in which they are baked.
+/// Bakes in their order.
 [[nodiscard]] std::vector<BakeVariant> bake_variants(const ValidatePlan& plan);
 
 [[nodiscard]] TraceVariant truth_variant(const ValidatePlan& plan);
 
-/// The truth as far as the bakes follow it: the same paths, but shorter. The truth itself where that is all.
+/// Truth with the bakes' limit of bounces: the same paths, cut off. The truth itself where the limit does not
+/// matter.
 [[nodiscard]] TraceVariant limited_variant(const ValidatePlan& plan);
 
 /// The truth with the recipe's faults up to one of them.
@@ -54,7 +55,7 @@ struct Emulation {
   TraceVariant variant;
 };
 
-/// The faults that this Blender has, one more each time; none where nothing is decomposed.
+/// Traces with the first 1, 2, ... faults of this Blender; none where no object is decomposed.
 [[nodiscard]] std::vector<Emulation> emulations(const ValidatePlan& plan);
 
 /// Folders of a recipe's two halves, and of what was traced.

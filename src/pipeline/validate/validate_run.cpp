@@ -37,7 +37,7 @@ struct Step {
   std::function<void()> work;
 };
 
-/// What the steps leave behind beside the files in their folders.
+/// Results of the steps, beside the files in their folders.
 struct Findings {
   bool complete = true;  // no object failed
   SplitStudy study;
@@ -125,7 +125,8 @@ Report compared(const ValidatePlan& plan, const TraceVariant& traced, Recipe rec
   return report;
 }
 
-/// About the receiver as a meter: a limit of bounces that the settings ask for is no error of its own.
+/// Finding on the receiver alone, against the truth with the settings' limit of bounces, for that limit is no
+/// error of the recipe.
 std::string judge(const ValidatePlan& plan, const Report& receiver) {
   if (!plan.bounce_limit_counts) return receiver_finding(receiver);
   return receiver_finding(compared(plan, limited_variant(plan), Recipe::receiver, false));

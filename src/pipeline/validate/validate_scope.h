@@ -1,5 +1,5 @@
-// pipeline/validate/validate_scope.h - where bake and reference differ by what they are asked or able to do,
-// not by error.
+// pipeline/validate/validate_scope.h - differences of bake and reference in scope, not by error: light that
+// one cannot follow, the limit of bounces.
 #pragma once
 
 #include "report/comparison.h"

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int traced_for_each_baked = 2;  // paths of the reference for each sample of the bake
 
-/// Whole values in one file, nothing mended: what a comparison wants.
+/// Unrepaired floats in one file, for comparisons.
 OutputSettings plain_output(const OutputSettings& output, const std::filesystem::path& dir) {
   OutputSettings plain;
   plain.dir = dir;
