@@ -8,12 +8,6 @@
 namespace rnmbake {
 namespace {
 
-/// A square from (-1,-1,0) to (1,1,0), facing +z, as an object's matrix stands it up or moves it.
-Surface square_surface(const Mat44& to_world = Mat44()) {
-  const Mesh mesh = square();
-  return make_surface(mesh, {0, 1}, square_uv(), tangent_frames(mesh, square_uv(), to_world), to_world);
-}
-
 LightBall sun(const Vec3d& towards, double radius = 0) {
   return {true, towards.normalized(), radius};
 }

@@ -6,6 +6,7 @@
 #include "lightmap/layout.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"
+#include "support/pictures.h"
 
 #include <algorithm>
 #include <string>
@@ -15,12 +16,6 @@
 
 namespace rnmbake {
 namespace {
-
-FloatImage filled(int channels, float value) {
-  FloatImage image(4, 4, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
-}
 
 class DecodeCommand : public CommandTest {
  protected:
@@ -33,8 +28,8 @@ class DecodeCommand : public CommandTest {
   std::string sky(const std::string& name) {
     TargetBakes bakes;
     for (const BasisDirection& basis : metadata_.bases)
-      bakes.bases.push_back({basis.name, basis.direction, filled(3, (1 + basis.direction.z) / 2)});
-    bakes.coverage = filled(1, 1);
+      bakes.bases.push_back({basis.name, basis.direction, filled(4, 4, 3, (1 + basis.direction.z) / 2)});
+    bakes.coverage = filled(4, 4, 1, 1);
     MergedLightmap merged = merge(bakes, {.depth = Depth::full});
     write_metadata(metadata_, merged.image);
     write_exr(path(name), merged.image, Depth::full);
@@ -88,7 +83,7 @@ TEST_F(DecodeCommand, GreenMustBeSaidForYDownLightmaps) {
 
 TEST_F(DecodeCommand, PlainPicturesAreNotLightmaps) {
   LayeredImage plain;
-  plain.layers.push_back({"", {"R", "G", "B"}, filled(3, 1)});
+  plain.layers.push_back({"", {"R", "G", "B"}, filled(4, 4, 3, 1)});
   write_exr(path("plain.exr"), plain, Depth::full);
   EXPECT_EQ(decode({path("plain.exr"), "--normal-vector", "0,0,1"}), 5);
   EXPECT_EQ(decode({path("plain.exr"), "--normal-vector", "0,0,1", "--force"}), 5);  // there are no maps

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "support/chance.h"
+#include "support/pictures.h"
 
 #include <array>
 #include <cmath>
@@ -35,9 +36,7 @@ FloatImage blocky(int size, double deviation, std::mt19937& random) {
 }
 
 FloatImage plain(int size, float value, int channels = 3) {
-  FloatImage image(size, size, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
+  return filled(size, size, channels, value);
 }
 
 void add_noise(FloatImage& image, double deviation, std::mt19937& random) {

@@ -1,6 +1,7 @@
 #include "lightmap/extra_layers.h"
 
 #include "lightmap/half_range.h"
+#include "support/pictures.h"
 
 #include <string>
 #include <vector>
@@ -9,12 +10,6 @@
 
 namespace rnmbake {
 namespace {
-
-FloatImage filled(int channels, float value) {
-  FloatImage image(4, 4, channels);
-  for (float& v : image.data()) v = value;
-  return image;
-}
 
 /// The left half is covered and has `value`.
 FloatImage left_half(int channels, float value) {
@@ -29,7 +24,7 @@ FloatImage left_half(int channels, float value) {
 
 LayeredImage merged() {
   LayeredImage image;
-  image.layers.push_back({"", {"R", "G", "B"}, filled(3, 1)});
+  image.layers.push_back({"", {"R", "G", "B"}, filled(4, 4, 3, 1)});
   image.layers.push_back({"coverage", {""}, left_half(1, 1)});
   return image;
 }

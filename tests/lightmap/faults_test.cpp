@@ -1,5 +1,7 @@
 #include "lightmap/faults.h"
 
+#include "support/pictures.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,12 +14,6 @@ namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-FloatImage filled(int width, int height, int channels, float value) {
-  FloatImage image(width, height, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
-}
 
 void set(FloatImage& image, int x, int y, float value) {
   std::ranges::fill(image.texel(x, y), value);

@@ -4,6 +4,7 @@
 #include "encoding/rnm.h"
 #include "lightmap/half_range.h"
 #include "lightmap/layout.h"
+#include "support/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,6 @@ namespace rnmbake {
 namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-
-FloatImage filled(int width, int height, int channels, float value) {
-  FloatImage image(width, height, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
-}
 
 /// A uniform sky over `width` x `height` texels, the last column not covered and full of rubbish.
 TargetBakes sky(int width, int height) {

@@ -12,18 +12,6 @@ namespace {
 
 const std::vector<std::uint32_t> both_triangles{0, 1};
 
-Surface square_surface(const Mat44& to_world) {
-  const Mesh mesh = square();
-  return make_surface(mesh, both_triangles, square_uv(), tangent_frames(mesh, square_uv(), to_world),
-                      to_world);
-}
-
-Mat44 scaled(double x, double y, double z) {
-  Mat44 matrix;
-  matrix.setScale(Imath::V3d(x, y, z));
-  return matrix;
-}
-
 Mat44 moved(const Vec3d& by, double scale) {
   Mat44 matrix = scaled(scale, scale, scale);
   matrix[3][0] = by.x;

@@ -32,12 +32,6 @@ std::vector<Vec2> mapped(const std::vector<Vec2>& uv, float a, float b, float c,
   return result;
 }
 
-Mat44 scaled(double x, double y, double z) {
-  Mat44 matrix;
-  matrix.setScale(Vec3d(x, y, z));
-  return matrix;
-}
-
 TEST(Tangents, OfAPlaneAreItsAxes) {
   expect_frames(tangent_frames(square(), square_uv(), Mat44()), {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
 }

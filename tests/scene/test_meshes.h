@@ -1,7 +1,7 @@
-// tests/scene/test_meshes.h - small meshes with known frames and UVs.
+// tests/scene/test_meshes.h - small meshes with known frames and UVs, and how objects place them.
 #pragma once
 
-#include "scene/mesh.h"
+#include "scene/surface.h"
 
 #include <cstdint>
 #include <vector>
@@ -37,6 +37,18 @@ inline Mesh square() {
 /// The square's own UVs: the whole picture.
 inline std::vector<Vec2> square_uv() {
   return {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+}
+
+/// The square as an object's matrix stands it up or moves it.
+inline Surface square_surface(const Mat44& to_world = Mat44()) {
+  const Mesh mesh = square();
+  return make_surface(mesh, {0, 1}, square_uv(), tangent_frames(mesh, square_uv(), to_world), to_world);
+}
+
+inline Mat44 scaled(double x, double y, double z) {
+  Mat44 matrix;
+  matrix.setScale(Vec3d(x, y, z));
+  return matrix;
 }
 
 }  // namespace rnmbake

@@ -3,6 +3,7 @@
 #include "blender/find.h"
 #include "image/layered_exr.h"
 #include "process/run.h"
+#include "support/run_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using Words = std::vector<std::string>;
-
-ProcessResult run_words(Words argv) {
-  ProcessOptions options;
-  options.argv = std::move(argv);
-  return run_process(options);
-}
 
 /// A finished bake: its folder and what its manifest says.
 struct Baked {

@@ -1,6 +1,7 @@
 // What is easily dropped on the way from a scene to the tracer: Cycles' bake and the reference against the
 // right value of each. Scenes: scenes/follow_cases.py.
 #include "closed_forms/cases.h"
+#include "support/pictures.h"
 #include "with_blender/survey_session.h"
 
 #include <array>
@@ -16,33 +17,15 @@ namespace {
 const Words flags{"--resolution", "24", "--samples", "128", "--bases", "flat"};
 const double panel = 1.74083950 / pi;  // a square of half size 1 and radiance 1, one unit above
 
-struct Mean {
-  std::array<double, 3> value{}, error{};  // error: standard error, from the spread over the texels
-};
-
-Mean mean_of(const LayeredImage& lightmap) {
-  Mean mean;
-  const FloatImage &light = lightmap.find("")->pixels, &coverage = lightmap.find("coverage")->pixels;
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    double count = 0, sum = 0, squares = 0;
-    for (std::size_t i = 0; i < coverage.data().size(); ++i) {
-      if (coverage.data()[i] == 0) continue;
-      const double value = light.data()[3 * i + channel];
-      ++count;
-      sum += value;
-      squares += value * value;
-    }
-    mean.value[channel] = sum / count;
-    mean.error[channel] = std::sqrt(std::max(squares / count - std::pow(sum / count, 2), 0.0) / count);
-  }
-  return mean;
+ColourMeans mean_of(const LayeredImage& lightmap) {
+  return covered_means(lightmap.find("")->pixels, lightmap.find("coverage")->pixels);
 }
 
 /// The floors are not quite points: the square of their size.
 constexpr double finite_size = 1e-3;
 
 void expect(const Baked& baked, const std::string& object, const Vec3& right) {
-  const Mean mean = mean_of(baked.lightmap(object));
+  const ColourMeans mean = mean_of(baked.lightmap(object));
   for (std::size_t channel = 0; channel < 3; ++channel)
     EXPECT_NEAR(mean.value[channel], right[int(channel)],
                 4 * mean.error[channel] + finite_size * std::abs(right[int(channel)]))
@@ -81,11 +64,11 @@ TEST_F(Follow, CellsAreWhatTheyMustBe) {
     SCOPED_TRACE(one == &own ? "own materials" : one == &lambert ? "lambert" : "reference");
     expect_cells(*one);
     // All that a lamp of two bounces gives to the walls of a closed room: 1 + r + r^2.
-    const Mean room = mean_of(one->lightmap("room"));
+    const ColourMeans room = mean_of(one->lightmap("room"));
     EXPECT_LT(room.error[0], 0.05);  // one bounce more or less is 0.5 or more
     EXPECT_NEAR(room.value[0], 1 + 0.8 + 0.64, 4 * room.error[0]);
     for (const char* object : {"random", "random object"}) {
-      const Mean right = mean_of(own.lightmap(object)), mean = mean_of(one->lightmap(object));
+      const ColourMeans right = mean_of(own.lightmap(object)), mean = mean_of(one->lightmap(object));
       EXPECT_GT(right.value[0], 0.01) << object;
       EXPECT_NEAR(mean.value[0], right.value[0],
                   4 * std::hypot(mean.error[0], right.error[0]) + finite_size * right.value[0])

@@ -4,6 +4,8 @@
 #include "blender/probe.h"
 #include "image/layered_exr.h"
 #include "process/run.h"
+#include "support/pictures.h"
+#include "support/run_words.h"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using Words = std::vector<std::string>;
-
-ProcessResult run_words(Words argv) {
-  ProcessOptions options;
-  options.argv = std::move(argv);
-  return run_process(options);
-}
 
 class GltfWithBlender : public testing::Test {
  protected:
@@ -65,34 +61,6 @@ class GltfWithBlender : public testing::Test {
 
 std::unique_ptr<TempFolder> GltfWithBlender::folder_;
 
-/// Means of red, green and blue over the covered texels of a map, and the standard errors of these.
-struct Mean {
-  std::array<double, 3> value{}, error{};
-};
-
-Mean mean_of(const LayeredImage& lightmap) {
-  const FloatImage &flat = lightmap.find("")->pixels, &coverage = lightmap.find("coverage")->pixels;
-  std::array<double, 3> squares{};
-  Mean mean;
-  double texels = 0;
-  for (int y = 0; y < flat.height(); ++y) {
-    for (int x = 0; x < flat.width(); ++x) {
-      if (coverage.texel(x, y)[0] < 0.5F) continue;
-      ++texels;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto value = double(flat.texel(x, y)[c]);
-        mean.value[c] += value;
-        squares[c] += value * value;
-      }
-    }
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    mean.value[c] /= texels;
-    mean.error[c] = std::sqrt(std::max(squares[c] / texels - mean.value[c] * mean.value[c], 0.0) / texels);
-  }
-  return mean;
-}
-
 constexpr double lumens_per_watt = 683;
 
 /// E/pi of a lamp of 100 cd that hangs `height` above a plane, `beside` away from the point below it.
@@ -119,7 +87,8 @@ class Floors {
     for (const json& object : manifest["objects"]) {
       EXPECT_EQ(object["status"], "baked") << object;
       if (object["status"] != "baked") continue;
-      means_[object["key"]] = mean_of(read_image(folder / object["files"][0].get<std::string>()));
+      const LayeredImage lightmap = read_image(folder / object["files"][0].get<std::string>());
+      means_[object["key"]] = covered_means(lightmap.find("")->pixels, lightmap.find("coverage")->pixels);
     }
   }
   [[nodiscard]] std::size_t count() const { return means_.size(); }
@@ -139,7 +108,7 @@ class Floors {
   }
 
  private:
-  std::map<std::string, Mean> means_;
+  std::map<std::string, ColourMeans> means_;
 };
 
 TEST_F(GltfWithBlender, MeansUnderASunWhatItSays) {

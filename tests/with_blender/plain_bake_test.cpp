@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "image/layered_exr.h"
 #include "process/run.h"
+#include "support/run_words.h"
 #include "survey_session.h"
 
 #include <algorithm>
@@ -66,12 +67,6 @@ Difference compare(const LayeredImage& lightmap, const std::string& plain_bytes)
 class PlainBakeWithBlender : public testing::Test {
  protected:
   [[nodiscard]] fs::path file(const std::string& name) const { return session_.file(name); }
-
-  static ProcessResult run_words(std::vector<std::string> argv) {
-    ProcessOptions options;
-    options.argv = std::move(argv);
-    return run_process(options);
-  }
 
   /// The scene with every material replaced by its albedo and emission: the model that both sides share.
   fs::path lambert(const fs::path& scene) {

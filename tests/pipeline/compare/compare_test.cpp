@@ -6,6 +6,7 @@
 #include "lightmap/layout.h"
 #include "lightmap/metadata.h"
 #include "report/write.h"
+#include "support/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,6 @@ struct Lightmap {
   std::function<void(LayeredImage&)> spoil = {};
 };
 
-FloatImage plain(int size, int channels, float value) {
-  FloatImage image(size, size, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
-}
-
 LayeredImage lightmap_of(const Lightmap& wanted) {
   LightmapMetadata metadata;
   metadata.bases = rnm_set().directions;
@@ -48,12 +43,12 @@ LayeredImage lightmap_of(const Lightmap& wanted) {
   LayeredImage image;
   for (const std::string& basis : wanted.bases) {
     image.layers.push_back(
-        {basis == "flat" ? "" : basis, {"R", "G", "B"}, plain(wanted.size, 3, wanted.value)});
+        {basis == "flat" ? "" : basis, {"R", "G", "B"}, filled(wanted.size, wanted.size, 3, wanted.value)});
     if (wanted.standard_error > 0)
       image.layers.push_back(
-          {basis + "_stderr", {"R", "G", "B"}, plain(wanted.size, 3, wanted.standard_error)});
+          {basis + "_stderr", {"R", "G", "B"}, filled(wanted.size, wanted.size, 3, wanted.standard_error)});
   }
-  image.layers.push_back({"coverage", {""}, plain(wanted.size, 1, 1)});
+  image.layers.push_back({"coverage", {""}, filled(wanted.size, wanted.size, 1, 1)});
   write_metadata(metadata, image);
   if (wanted.spoil) wanted.spoil(image);
   return image;
@@ -166,7 +161,7 @@ TEST_F(Compare, CountsWhatBothCoverAndWhatIsSound) {
   left.spoil = [](LayeredImage& image) { image.layers.back().pixels.texel(0, 0)[0] = 0; };
   right.spoil = [](LayeredImage& image) {
     image.layers.back().pixels.texel(1, 0)[0] = 0;
-    FloatImage validity = plain(picture_size, 1, 1);
+    FloatImage validity = filled(picture_size, picture_size, 1, 1);
     validity.texel(2, 0)[0] = 0.25F;
     image.layers.push_back({"validity", {""}, validity});
   };

@@ -9,6 +9,7 @@
 #include "ssbump/heights/height_shadows.h"
 #include "ssbump/map/normals.h"
 #include "ssbump/map/weights.h"
+#include "support/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,21 +20,15 @@
 namespace rnmbake {
 namespace {
 
-FloatImage constant(int width, int height, int channels, float value) {
-  FloatImage image(width, height, channels);
-  std::ranges::fill(image.data(), value);
-  return image;
-}
-
 /// Light that comes from one side; maps are scaled so that their mean is the flat bake.
 Lightmap sided() {
   Lightmap lightmap;
   lightmap.metadata.bases = rnm_set().directions;
   lightmap.metadata.normalize = Normalize::flat;
-  lightmap.layers["flat"] = constant(2, 2, 3, 0.5F);
-  lightmap.layers["rnm0"] = constant(2, 2, 3, 0.8F);
-  lightmap.layers["rnm1"] = constant(2, 2, 3, 0.5F);
-  lightmap.layers["rnm2"] = constant(2, 2, 3, 0.2F);
+  lightmap.layers["flat"] = filled(2, 2, 3, 0.5F);
+  lightmap.layers["rnm0"] = filled(2, 2, 3, 0.8F);
+  lightmap.layers["rnm1"] = filled(2, 2, 3, 0.5F);
+  lightmap.layers["rnm2"] = filled(2, 2, 3, 0.2F);
   return lightmap;
 }
 
@@ -64,7 +59,7 @@ TEST_F(DecodeSsbump, GivesAFlatPatchTheFlatBakeUnderEachScaleAndDepth) {
     for (const auto alpha : {SsbumpAlpha::none, SsbumpAlpha::up, SsbumpAlpha::ao}) {
       for (const char* name : {"a.exr", "a.png", "a.tga"}) {
         const SsbumpPicture map =
-            stored(constant(16, 16, SsbumpWeights::channels, 1), {scale, Handed::right, alpha}, name);
+            stored(filled(16, 16, SsbumpWeights::channels, 1), {scale, Handed::right, alpha}, name);
         const FloatImage lit = decode_ssbump(sided(), map, DecodeVariant::squared);
         double mean = 0;
         for (const float value : lit.data()) mean += value / static_cast<double>(lit.data().size());
@@ -122,10 +117,10 @@ Fit fit_to_shadows(const HeightField& field, SsbumpPicture map, SsbumpAlpha alph
     const double z = (k + 0.5) / light_count, turn = k * pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
     const Vec3 light(Vec3d(r * std::cos(turn), r * std::sin(turn), z));
     Lightmap lightmap = sided();
-    lightmap.layers["flat"] = constant(2, 2, 3, light.z);
+    lightmap.layers["flat"] = filled(2, 2, 3, light.z);
     const auto maps = rnm_scaled_to_flat(rnm_linear_weights(light), light.z);
     for (std::size_t i = 0; i < 3; ++i)
-      lightmap.layers[std::string(rnm_layers[i])] = constant(2, 2, 3, maps[i]);
+      lightmap.layers[std::string(rnm_layers[i])] = filled(2, 2, 3, maps[i]);
     const FloatImage lit = decode_ssbump(lightmap, map, DecodeVariant::squared);
     const FloatImage shadows = height_shadows(field, light);
     for (std::size_t i = 0; i < shadows.data().size(); ++i) {

@@ -1,6 +1,7 @@
 #include "ssbump/generate/generate.h"
 #include "ssbump/height_fields.h"
 #include "ssbump/horizon/horizon_sweep.h"
+#include "support/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -30,13 +31,6 @@ Errors errors(const HeightField& field, const GenerateOptions& options, int ever
   }
   result.rms = std::sqrt(result.rms / count);
   return result;
-}
-
-double largest_difference(const FloatImage& a, const FloatImage& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.data().size(); ++i)
-    largest = std::max(largest, std::abs(double(a.data()[i]) - b.data()[i]));
-  return largest;
 }
 
 TEST(Horizon, NothingStandsOutOfAFlatMap) {
