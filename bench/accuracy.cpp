@@ -1,5 +1,5 @@
-// Bakes the closed forms with every Blender it is given and writes what came out: a part of
-// docs/accuracy.md, which bench/scene_accuracy.py puts together.
+// Bakes the closed forms with every given Blender and writes a table of errors: a part of docs/accuracy.md,
+// which bench/scene_accuracy.py puts together.
 //
 //   accuracy --blender 3.4=/usr/bin/blender --blender 4.3=... -o closed_forms.md
 #include "base/error.h"
@@ -174,7 +174,7 @@ What `receiver` leaves, and why:
   that falls with the texel's size (here 64 x 64).
 )";
 
-/// A chapter, or one line that says why there is none.
+/// A chapter, or one line with the reason why there is none.
 std::string chapter(const std::string& label, const std::string& blender) {
   try {
     return Chapter(label, blender).write();

@@ -1,4 +1,4 @@
-// bench/ray_loop.h - what a sweep has to beat: a tight loop of Embree's occlusion rays over the same heights.
+// bench/ray_loop.h - a tight loop of Embree's occlusion rays over the same heights, to time sweeps against.
 #pragma once
 
 #include "rays/embree_scene.h"

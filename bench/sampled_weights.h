@@ -1,4 +1,4 @@
-// bench/sampled_weights.h - the weights of some texels of a map: the truth, and how far others are off it.
+// bench/sampled_weights.h - the weights of some texels of a map: the truth, and errors against it.
 #pragma once
 
 #include "ssbump/generate/hemisphere_rays.h"
@@ -19,7 +19,7 @@ struct Texel {
 /// Spread evenly over the map (Roberts' R2 sequence).
 [[nodiscard]] std::vector<Texel> spread_texels(int width, int height, int count);
 
-/// What `weights` says of each, in parallel.
+/// Weights of each texel by `weights`, in parallel.
 [[nodiscard]] std::vector<Channels> for_each(const std::vector<Texel>& texels,
                                              const std::function<Channels(Texel)>& weights);
 

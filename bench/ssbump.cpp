@@ -1,5 +1,5 @@
-// bench/ssbump.cpp - self-shadowed bump maps: how long a sweep takes and how far off it is, beside a loop of
-// Embree's rays over the same heights.
+// bench/ssbump.cpp - time and error of a sweep for self-shadowed bump maps, beside a loop of Embree's rays
+// over the same heights.
 //
 // Prints one JSON object. Times are the best of some runs where one is short.
 #include "base/clock.h"
@@ -42,7 +42,8 @@ struct Arguments {
   std::vector<int> sides{512, 1024, 2048, 4096, 8192};
 };
 
-/// On the wall, and of all threads: what other work on the machine takes makes only the former longer.
+/// Seconds of wall clock and of all threads' processor time; other work on the machine adds to the former
+/// alone.
 struct Time {
   double seconds = 0, cpu_seconds = 0;
 };

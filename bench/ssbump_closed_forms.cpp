@@ -14,8 +14,8 @@ namespace {
 
 constexpr int side_length = 256, centre = side_length / 2;
 
-/// Where on the great circle across `normal` all other half-spaces are open: its length. Each leaves half of
-/// the circle, so that what is left is one arc.
+/// Length of the arc of the great circle across `normal` on which all other half-spaces are open. Each
+/// half-space leaves half of the circle, so their intersection is one arc.
 double arc_within(const Vec3d& normal, const std::vector<Vec3d>& planes) {
   const Vec3d aside = std::abs(normal.z) < 0.9 ? Vec3d(0, 0, 1) : Vec3d(1, 0, 0);
   const Vec3d u = normal.cross(aside).normalized(), v = normal.cross(u);

@@ -1,4 +1,4 @@
-// bench/ssbump_maps.h - the surfaces that self-shadowed bump maps are held against the truth on.
+// bench/ssbump_maps.h - surfaces on which self-shadowed bump maps are compared with the truth.
 #pragma once
 
 #include "image/float_image.h"

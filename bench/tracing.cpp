@@ -1,4 +1,4 @@
-// bench/tracing.cpp - how fast the reference tracer is on a .rnmscene: noise for time, and rays beside a bare
+// bench/tracing.cpp - speed of the reference tracer on a .rnmscene: noise for time, and rays beside a bare
 // Embree loop.
 //
 // Prints one JSON object. `cost` is relative variance x processor seconds: what halves it halves the time to
@@ -50,7 +50,7 @@ std::vector<Surface> surfaces_of(const DiffuseScene& scene) {
   return surfaces;
 }
 
-/// Of all threads: what other work on the machine leaves alone.
+/// Processor seconds of all threads, to which other work on the machine adds nothing.
 double cpu_seconds() {
   return double(std::clock()) / CLOCKS_PER_SEC;
 }

@@ -49,7 +49,7 @@ void store(FloatImage& image, int x, int y, const Vec3& color) {
   for (int c = 0; c < 3; ++c) texel[std::size_t(c)] = color[c];
 }
 
-/// Which triangle a texel sees, and where in it.
+/// Triangle of each texel's centre, with barycentric weights.
 class TexelGeometry {
  public:
   TexelGeometry(const Surface& surface, int width, int height) : surface_(surface) {
@@ -66,7 +66,7 @@ class TexelGeometry {
     return index < 0 ? nullptr : &surface_.triangles[std::size_t(index)];
   }
 
-  /// What `value` of the corners interpolates to at the texel's centre.
+  /// Interpolates `value` of the corners at the texel's centre.
   template <typename Value>
   [[nodiscard]] Vec3 interpolate(int x, int y, Value value) const {
     const TexelOwner& owner = raster_.at(x, y);
@@ -85,7 +85,7 @@ class HorizonIdentity {
   HorizonIdentity(const TexelGeometry& geometry, const std::array<std::optional<Window>, 5>& moments)
       : geometry_(geometry), moments_(moments) {}
 
-  /// Fills in the texels of `below`. `above`: what the legal part of the same basis covers.
+  /// Fills in the texels of `below`. `above`: rectangle of the same basis, baked with its legal normals.
   void apply(const Window& below, const std::optional<Window>& above, const Vec3& basis,
              FloatImage& radiance) const {
     for_each_covered(below, [&](int x, int y, const Vec3& reversed) {

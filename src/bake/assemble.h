@@ -9,10 +9,10 @@
 
 namespace rnmbake {
 
-/// `pictures`: for each of `rects` (all of one target) what was baked, RGBA with alpha = coverage.
-/// `surface` gives the geometry for the horizon identity (bake/receiver.h) and for the frames; it may be
-/// null where neither is needed. Throws Error(tasks_failed) if no texel at all was baked although the
-/// target covers some.
+/// `pictures`: baked picture of each of `rects` (all of one target), RGBA with alpha = coverage. `surface`
+/// gives the geometry for the horizon identity (bake/receiver.h) and for the frames; it may be null where
+/// neither is needed. Throws Error(tasks_failed) if no texel at all was baked although the target covers
+/// some.
 [[nodiscard]] TargetBakes assemble(const Target& target, const std::vector<const AtlasRect*>& rects,
                                    const std::vector<FloatImage>& pictures,
                                    const std::vector<BasisDirection>& bases, const Surface* surface,
@@ -21,7 +21,7 @@ namespace rnmbake {
 /// Fills `tangent` and `normal` of bakes whose coverage has its size.
 void fill_frames(const Surface& surface, TargetBakes& bakes);
 
-/// True where a target has rectangles that only the identity can put together.
+/// Whether a target has rectangles of the horizon identity.
 [[nodiscard]] bool needs_surface(const std::vector<const AtlasRect*>& rects);
 
 }  // namespace rnmbake

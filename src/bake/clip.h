@@ -1,4 +1,4 @@
-// bake/clip.h - cuts triangles by linear functions, carrying what their corners carry.
+// bake/clip.h - cuts triangles by linear functions of their corners.
 #pragma once
 
 #include "base/math.h"

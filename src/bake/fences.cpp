@@ -56,7 +56,7 @@ struct Rim {
   [[nodiscard]] auto edge() const { return std::tie(low, high); }
 };
 
-/// What of one triangle lights are compared with.
+/// A triangle's plane, edges and size, for comparisons with lights.
 class Face {
  public:
   Face(const SurfaceTriangle& triangle, const Vec2& map) : triangle_(triangle), normal_(triangle.normal) {
@@ -67,14 +67,15 @@ class Face {
     steepest_ = std::min(steepest_of_all, double(triangle.height) / (shown_share * texel(map)));
   }
 
-  /// Whether some of the light runs along the face or comes from so little below that it matters.
+  /// Whether some of the light's directions lie in the face's plane, or below it by less than `steepest_`
+  /// (sine).
   [[nodiscard]] bool grazed_by(const LightBall& light) const { return between(light, steepest_); }
-  /// Whether some of it runs so nearly along the face that Cycles is not sure to meet the triangle it starts
-  /// from.
+  /// Whether some of them are so nearly in the plane that Cycles' shadow rays may miss the triangle on which
+  /// they start.
   [[nodiscard]] bool runs_along(const LightBall& light) const {
     return between(light, std::max(1e-5, double(triangle_.height) / radius_));
   }
-  /// Whether some of it comes over the edge that starts at a corner.
+  /// Whether some of the light comes in over the edge that starts at a corner.
   [[nodiscard]] bool comes_over(std::size_t corner, const LightBall& light) const {
     const Vec3d out = way_out(corner);
     if (light.far) return light.place.dot(out) + light.radius > least_way;
@@ -98,7 +99,8 @@ class Face {
   [[nodiscard]] Vec3d way_out(std::size_t corner) const { return along(corner).cross(normal_).normalized(); }
 
  private:
-  /// Whether some of the light comes from below the face, but no steeper than that (sine).
+  /// Whether some of the light's directions lie in the face's plane, or below it by a sine of `steepest` at
+  /// most.
   [[nodiscard]] bool between(const LightBall& light, double steepest) const {
     const Vec3d way = light.far ? light.place : light.place - centre_;
     const double height = way.dot(normal_), range = light.far ? 1 : way.length() + radius_;
@@ -110,7 +112,7 @@ class Face {
   double radius_ = 0, steepest_ = 0;
 };
 
-/// Of faces that light grazes.
+/// Rims of faces that some light grazes.
 std::vector<Rim> rims_of(const Surface& surface, const std::vector<LightBall>& lights, const Vec2& map) {
   std::vector<Rim> rims;
   for (const SurfaceTriangle& triangle : surface.triangles) {
@@ -153,7 +155,8 @@ double diagonal_of(const Surface& surface) {
   return surface.triangles.empty() ? 0 : (high - low).length();
 }
 
-/// From a little under the face to a little over its receivers, or to where light that runs along it may be.
+/// Fence from a little under the face to a little over its receivers, or over the greatest offset of a ray
+/// along the face.
 Fence fence_along(const Rim& rim, const Face& plane, double diagonal) {
   const SurfaceTriangle& face = *rim.face;
   const Vec3d up(face.normal), along = plane.along(rim.corner);

@@ -1,4 +1,4 @@
-// bake/glow.h - how high receivers stand over faces that glow.
+// bake/glow.h - heights of receivers over emissive faces.
 //
 // Cycles aims light samples at the glowing face right under a receiver, and the part of a tilted normal's
 // lobe that lies below the face would take its light in (blender_scripts/bake/glow.py).

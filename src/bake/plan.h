@@ -1,4 +1,4 @@
-// bake/plan.h - which pictures are baked by which launch of Blender.
+// bake/plan.h - receiver passes, tasks, and batches: one batch for each launch of Blender.
 #pragma once
 
 #include "bake/atlas.h"
@@ -15,7 +15,7 @@
 
 namespace rnmbake {
 
-/// What has to be the same for things baked in one launch.
+/// Cycles settings that all tasks of a launch share.
 struct CyclesSettings {
   int samples = 256, bounces = 32, seed = 0;
   double clamp = 0;
@@ -31,8 +31,8 @@ struct AtlasRect {
   RectSize size;
 };
 
-/// The smallest piece that can be baked alone: one basis of one target, with all that it needs but `moments`,
-/// which are a task of their own since every basis shares them.
+/// One basis of one target: the smallest unit that can be baked and retried. The moments, which all bases
+/// share, are a task of their own.
 struct BakeTask {
   std::size_t target = 0;
   std::string name;                // of the basis, or "horizon"
@@ -66,7 +66,7 @@ void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target
 /// Groups tasks into batches: one for each task, each target, or all that share their Cycles settings.
 void group_tasks(Plan& plan, BakingSettings::Dispatch mode);
 
-/// What `automatic` means for a recipe: joined for receivers, a launch for each object otherwise.
+/// Resolves `automatic`: joined for receivers, a launch for each object otherwise.
 [[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
 
 /// The two halves of a batch that failed; at a boundary between targets where there is one.

@@ -20,7 +20,7 @@ struct BatchLayout {
   AtlasPlan atlas;                 // placements in the order of `rects`
 };
 
-/// Everything that a request is made from.
+/// Input of a request.
 struct BakeContext {
   const SceneSurvey& survey;
   const std::vector<Target>& targets;

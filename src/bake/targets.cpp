@@ -48,7 +48,7 @@ bool has_area(const Mesh& mesh, int layer) {
   return sum > 1e-12;
 }
 
-/// The layer that its name or place marks as the lightmap's.
+/// Layer that is the lightmap's by its name or its place.
 std::optional<int> conventional_layer(const Mesh& mesh) {
   for (const char* name : {"Lightmap", "UV2", "lightmap"}) {
     if (const auto layer = layer_named(mesh, name)) return layer;

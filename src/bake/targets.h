@@ -1,4 +1,4 @@
-// bake/targets.h - what is baked: objects or parts of them, with their UVs and their size.
+// bake/targets.h - targets: objects or parts of them, with their UVs and their size.
 #pragma once
 
 #include "base/math.h"

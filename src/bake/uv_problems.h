@@ -1,4 +1,4 @@
-// bake/uv_problems.h - what keeps a lightmap from showing all of its surface: counts, words, remedies.
+// bake/uv_problems.h - faults of UVs: counts, words, remedies.
 #pragma once
 
 #include "scene/uv_report.h"
@@ -21,7 +21,7 @@ struct UvProblem {
 /// "12 texels overlap".
 [[nodiscard]] std::string spoken(const UvProblem& problem);
 
-/// What the problem does to a lightmap, and what mends it; "" for what does no harm.
+/// Harm and remedy; "" for problems that do no harm.
 [[nodiscard]] const char* remedy(UvProblem::Kind kind);
 
 }  // namespace rnmbake

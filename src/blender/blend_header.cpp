@@ -97,7 +97,7 @@ std::string unreadable_blend(const std::filesystem::path& file, const BlenderInf
 std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender,
                         const std::string& which) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return "";  // whoever opens it says so
+  if (!std::filesystem::is_regular_file(file, error)) return "";  // its reader reports that
   const auto header = read_blend_header(file);
   return header && is_newer(*header, blender.version) ? said(file, *header, blender, which) : "";
 }

@@ -18,11 +18,11 @@ struct BlendHeader {
 /// Throws Error(io) where the file cannot be read.
 [[nodiscard]] std::optional<BlendHeader> read_blend_header(const std::filesystem::path& file);
 
-/// Why this Blender cannot read a file of that version, with the remedy; empty where it may.
+/// Reason why this Blender cannot read the file, with the remedy; empty where it may.
 [[nodiscard]] std::string unreadable_blend(const std::filesystem::path& file, const BlenderInfo& blender);
 
 /// "hall.blend was saved by Blender 4.3, this is 3.4.1, `which`; name ...", where the file is newer; else
-/// empty. Blender opens many such files and leaves out what it does not know, and crashes over others.
+/// empty. Blender opens many such files without the data that it does not know, and crashes over others.
 [[nodiscard]] std::string newer_blend(const std::filesystem::path& file, const BlenderInfo& blender,
                                       const std::string& which);
 

@@ -1,4 +1,4 @@
-// blender/blender_info.h - a Blender: its version and what it can do.
+// blender/blender_info.h - version and abilities of a Blender.
 #pragma once
 
 #include <compare>

@@ -1,4 +1,4 @@
-// blender/blender_session.h - what all launches of one command share: settings, a Blender, a private folder.
+// blender/blender_session.h - settings, Blender and private folder of one command's launches.
 #pragma once
 
 #include "base/files.h"
@@ -24,14 +24,14 @@ class BlenderSession {
   [[nodiscard]] const BakeSettings& settings() const { return config_.globals; }
   [[nodiscard]] Blender& blender() const { return blender_; }
 
-  /// A new folder for one launch, named after what it does.
+  /// New folder for one launch, named after its purpose.
   [[nodiscard]] std::filesystem::path new_folder(const std::string& purpose);
 
   [[nodiscard]] LaunchLimits limits() const;
   /// Threads for one of `jobs` Blenders at a time.
   [[nodiscard]] int threads(int jobs) const;
 
-  /// Launches that must succeed for the bake to go on. Throws the Error that the failure stands for.
+  /// Runs a launch without which the command cannot go on. Throws the Error of its failure.
   [[nodiscard]] nlohmann::json run(Launch launch);
 
  private:
@@ -41,11 +41,10 @@ class BlenderSession {
   std::atomic<int> launches_ = 0;
 };
 
-/// One line: who failed, how, and what to try.
+/// One line: step, failure and remedy.
 [[nodiscard]] std::string describe(const LaunchFailure& failure);
 
-/// Throws what the failure stands for: the script's own refusal, or tasks_failed. An interruption is
-/// thrown as Interrupted.
+/// Throws the script's own refusal, Error(tasks_failed), or Interrupted.
 [[noreturn]] void throw_failure(const LaunchFailure& failure);
 
 /// The user stopped the program; not an Error, since nothing is wrong.

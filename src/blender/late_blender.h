@@ -1,4 +1,4 @@
-// blender/late_blender.h - the Blender that the settings ask for, looked for when it is first needed.
+// blender/late_blender.h - the settings' Blender, found at its first use.
 #pragma once
 
 #include "blender/real_blender.h"

@@ -1,4 +1,4 @@
-// blender/launch.h - one headless run of one entry script, with limits, told apart by how it ended.
+// blender/launch.h - one headless run of one entry script, with limits and a typed outcome.
 #pragma once
 
 #include "blender/blend_path.h"
@@ -29,14 +29,14 @@ struct LaunchLimits {
   double total_seconds = 0;    // 0: no limit
 };
 
-/// One line of progress.jsonl: what begins now.
+/// One line of progress.jsonl: the work that begins.
 struct ProgressEvent {
   std::string phase;           // "load", "evaluate", "build", "bake", "save"
   std::string what;            // the object or tile in work
   double done = 0, total = 0;  // work before it, work of the whole launch; total 0: unknown
-  double until = 0;            // what `done` will be when it is finished; 0: unknown
-  double samples = 0;          // that Cycles will take of its picture; 0: none, or unknown
-  std::string detail;          // what Blender says of it: "33 of 256 samples", "Synchronizing object | Cube"
+  double until = 0;            // value of `done` at its end; 0: unknown
+  double samples = 0;          // of Cycles' picture; 0: none, or unknown
+  std::string detail;          // from Blender's output: "33 of 256 samples", "Synchronizing object | Cube"
 };
 
 struct Finished {
@@ -45,14 +45,14 @@ struct Finished {
   std::size_t peak_bytes = 0;  // of the Blender process
 };
 
-/// Why a launch gave no result. `message` is one line, with the object if the script knew it.
+/// Cause of a missing result. `message` is one line, with the object if the script knew it.
 struct LaunchFailure {
   enum class Kind {
-    refused,    // the script found something wrong with the scene and says what (ExitCode in `code`)
+    refused,    // by the script, which names the scene's defect (ExitCode in `code`)
     script,     // a Python exception: a defect of ours; the traceback is in `details`
     crashed,    // ended by a signal of its own (SIGSEGV, SIGABRT)
     killed,     // SIGKILL that we did not send: most likely out of memory
-    hung,       // ended by us: no progress, or more output than anyone can want
+    hung,       // ended by us: no progress, or more than the limit of output
     outlasted,  // ended by us after LaunchLimits::total_seconds
     no_result,  // exit 0, but no result file with our nonce
     stopped,    // the user interrupted
@@ -65,12 +65,12 @@ struct LaunchFailure {
 
 using LaunchOutcome = std::variant<Finished, LaunchFailure>;
 
-/// Starts Blenders. Narrow so that tests can hand out crashes that a real Blender cannot be asked for.
+/// Starts Blenders. Narrow, so that fakes in tests can crash at a given launch.
 class Blender {
  public:
   virtual ~Blender() = default;
   [[nodiscard]] virtual const BlenderInfo& info() const = 0;
-  /// `on_progress` hears of every event, and of the last one again and again while the launch runs.
+  /// `on_progress` receives every event, and the last one again at each poll while the launch runs.
   virtual LaunchOutcome run(const Launch& launch, const LaunchLimits& limits,
                             const std::function<void(const ProgressEvent&)>& on_progress) = 0;
 };

@@ -33,7 +33,7 @@ bool LaunchWatch::poll() {
   return progressed || (begun_.samples > 0 && !log_.hears_cycles());
 }
 
-/// A script that says the same for ever gets nowhere.
+/// Whether an event differs from the last: a script that repeats one makes no progress.
 bool LaunchWatch::is_new(const ProgressEvent& event) {
   return event.phase != begun_.phase || event.what != begun_.what || event.done != begun_.done;
 }

@@ -1,4 +1,4 @@
-// blender/launch_watch.h - how far a running launch is, from what its script and what Blender itself say.
+// blender/launch_watch.h - progress of a running launch, from its script's events and Blender's output.
 #pragma once
 
 #include "blender/launch.h"
@@ -15,14 +15,14 @@ namespace rnmbake {
 
 class LaunchWatch {
  public:
-  /// `folder` of the launch. `on_progress` hears of every event of the script, and at each poll of the last
-  /// one again, with what Blender has said since; before the first, of one without a phase.
+  /// `folder` of the launch. `on_progress` receives every event of the script, and at each poll the last one
+  /// again with details from Blender's output; before the first event, one without a phase.
   LaunchWatch(const std::filesystem::path& folder, std::function<void(const ProgressEvent&)> on_progress);
 
   /// True if the launch made progress since the last call.
   bool poll();
 
-  /// The last event that the script announced, with what Blender said of it since; no phase: none yet.
+  /// Last event of the script, with details from Blender's output; no phase: none yet.
   [[nodiscard]] const ProgressEvent& last() const { return last_; }
 
   /// See LogTail.

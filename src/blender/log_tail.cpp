@@ -34,8 +34,8 @@ std::optional<double> samples_in(std::string_view line) {
   return number_after(line, "Rendered ");
 }
 
-/// Of a line about the frame in work, without memory and times: "Updating Images | Loading wall.png", in 3.x
-/// and 4.x after the scene's name.
+/// Status in a line about the frame in work, without memory and times: "Updating Images | Loading wall.png",
+/// in 3.x and 4.x after the scene's name.
 std::string status_in(std::string_view line) {
   std::string status;
   while (!line.empty()) {

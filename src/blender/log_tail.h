@@ -1,5 +1,4 @@
-// blender/log_tail.h - finds in Blender's output, while it is still being written, what means that it gets
-// on.
+// blender/log_tail.h - finds signs of progress in Blender's output while Blender writes it.
 #pragma once
 
 #include <cstddef>
@@ -17,22 +16,21 @@ class LogTail {
  public:
   explicit LogTail(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Reads what was added. True if anything in it was progress.
+  /// Reads the lines added since the last call. True if one of them means progress.
   bool poll();
 
-  /// Whether something could not be written for want of room. Blender goes on then, and even says that it has
-  /// finished, with a picture half there.
+  /// Whether Blender ran out of disk space. It goes on then, and reports success with a picture half written.
   [[nodiscard]] bool ran_out_of_room() const { return ran_out_of_room_; }
 
-  /// Whether Cycles has said anything since the last event, as it does while it still prepares a bake. Not
-  /// every build of it can.
+  /// Whether Cycles has printed a line since the last event, as it does while it prepares a bake. Some builds
+  /// never do.
   [[nodiscard]] bool hears_cycles() const { return hears_cycles_; }
 
-  /// The last event that the output speaks of; 0: none yet.
+  /// Number of the last event in the output; 0: none yet.
   [[nodiscard]] int event() const { return event_; }
   /// Samples that Cycles has taken of its picture (of all tiles of a large one together).
   [[nodiscard]] double samples() const { return samples_; }
-  /// What Blender says that it is doing: "Synchronizing object | Cube"; "" if it says nothing.
+  /// Blender's status: "Synchronizing object | Cube"; "" where it prints none.
   [[nodiscard]] const std::string& doing() const { return doing_; }
 
  private:

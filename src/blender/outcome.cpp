@@ -148,7 +148,7 @@ LaunchFailure ended_by_signal(int signal, const std::string& words) {
   return failure(Kind::crashed, signal, fmt::format("Blender crashed ({})", signal_name(signal)), words);
 }
 
-/// The library that Blender was about to read when it printed its last words; else the scene.
+/// Library that Blender's last line names as being read; else the scene.
 fs::path file_in_work(const Launch& launch, const std::string& words) {
   static constexpr std::string_view sign = "Read library: ";
   const std::size_t at = words.rfind(sign);
@@ -159,7 +159,7 @@ fs::path file_in_work(const Launch& launch, const std::string& words) {
   return fs::is_regular_file(library, error) ? library : launch.scene->path();
 }
 
-/// What a Blender fails over in a file that a later one saved is that file's.
+/// Replaces a crash over a file of a later Blender by a refusal that names the file.
 LaunchFailure crash_or_newer_file(const Launch& launch, const BlenderInfo& info, LaunchFailure failed) {
   if (!launch.scene || failed.kind == Kind::killed || failed.kind == Kind::script) return failed;
   for (const fs::path& file : {file_in_work(launch, failed.details), launch.scene->path()}) {
@@ -226,7 +226,7 @@ LaunchOutcome judge(const Launch& launch, const BlenderInfo& info, const LaunchL
   const bool has_reason =
       failure != nullptr && (failure->kind == Kind::stopped || failure->kind == Kind::refused);
   if (has_reason) return outcome;
-  // Whatever else is wrong, and even where it says that all is well.
+  // A full disk comes before any other outcome, success included.
   const bool is_full = watch.ran_out_of_room() || (failure != nullptr && disk_is_full(launch.folder));
   return is_full ? full_disk(launch, words) : outcome;
 }

@@ -1,4 +1,5 @@
-// blender/private_environment.h - keeps what users set up out of launches, and launches out of their folders.
+// blender/private_environment.h - keeps the user's settings out of launches, and launches out of the user's
+// folders.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +10,8 @@
 
 namespace rnmbake {
 
-/// HOME and TMPDIR inside `folder`, and nothing from outside that could change what Blender does. `bytecode`:
-/// see ScriptFolder; empty: Python keeps nothing.
+/// HOME and TMPDIR inside `folder`, without variables that change Blender's behaviour. `bytecode`: see
+/// ScriptFolder; empty: Python keeps nothing.
 std::vector<std::pair<std::string, std::optional<std::string>>> private_environment(
     const std::filesystem::path& folder, const std::filesystem::path& bytecode = {});
 

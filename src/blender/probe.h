@@ -1,4 +1,4 @@
-// blender/probe.h - which Blender is there and what it can do.
+// blender/probe.h - version and abilities of an installed Blender.
 #pragma once
 
 #include "blender/blender_info.h"

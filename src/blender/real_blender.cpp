@@ -34,7 +34,7 @@ std::string new_nonce() {
   return fmt::format("{:08x}{:08x}{:08x}{:08x}", device(), device(), device(), device());
 }
 
-/// Removes what an earlier try may have left and writes the request.
+/// Removes files of an earlier try and writes the request.
 void prepare(const Launch& launch, const std::string& nonce) {
   for (const char* name : {"result.json", "progress.jsonl", "stdout.log"}) fs::remove(launch.folder / name);
   make_folders(launch.folder / "tmp");
@@ -49,7 +49,8 @@ void prepare(const Launch& launch, const std::string& nonce) {
   }
 }
 
-/// What Blender need not be started for: it would crash, or name neither the file nor the cause.
+/// Refusal of a scene that Blender cannot open, found before its start: Blender would crash, or name neither
+/// file nor cause.
 std::optional<LaunchFailure> unreadable_scene(const Launch& launch, const BlenderInfo& info) {
   if (!launch.scene) return std::nullopt;
   LaunchFailure failure;

@@ -24,8 +24,8 @@ class ScriptFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Where Python keeps what it compiled, for the launches that follow: Debian's Blender comes without, and
-  /// compiling its add-ons is half of its start.
+  /// Folder of Python's bytecode, for later launches: Debian's Blender comes without, and compiling its
+  /// add-ons is half of its start.
   [[nodiscard]] const std::filesystem::path& bytecode() const { return bytecode_.path(); }
 
   /// The path of an entry script. Error(environment) if there is none of that name.

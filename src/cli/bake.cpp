@@ -34,7 +34,7 @@ int report(const BakeOutcome& outcome, const OutputSettings& output) {
 int bake(const ResolvedConfig& config) {
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
-  (void)blender.info();  // a missing Blender is said before anything is written
+  (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
   prepare_output(config.globals.output);
   const SurveyResult scene = survey_scene(session);

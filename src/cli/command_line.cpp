@@ -20,7 +20,8 @@ std::string flag_of(const SettingOverride& given) {
   return fmt::format("{} {}", given.setting->flag(), shell_word(text_of(given.value)));
 }
 
-/// Whether somebody typed it: what one setting turns off in another has that one's place.
+/// Whether the user gave the setting by its flag or variable; a setting that another one turned off has the
+/// other's flag as its origin.
 bool was_typed(const SettingOverride& given) {
   if (given.source == SettingSource::environment) return true;
   return given.source == SettingSource::flag &&

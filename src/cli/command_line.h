@@ -1,4 +1,4 @@
-// cli/command_line.h - a command as somebody would type it again.
+// cli/command_line.h - a command line that repeats a run.
 #pragma once
 
 #include "config/resolve.h"
@@ -7,7 +7,7 @@
 
 namespace rnmbake {
 
-/// A word as a shell takes it back.
+/// Quotes a word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
 /// "rnmbake validate hall.blend --samples 64 ...": the scene or project, and each flag and variable that was

@@ -48,7 +48,7 @@ std::string command_of(const CompareFlags& options) {
   return line;
 }
 
-/// Texels with NaN never count; whoever reads the table alone should know.
+/// Warns of texels with NaN, which count nowhere in the table.
 void say_what_is_lost(const Report& report) {
   for (const ObjectComparison& object : report.objects) {
     std::size_t lost = 0;

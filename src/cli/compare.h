@@ -1,4 +1,4 @@
-// cli/compare.h - the command `rnmbake compare`: how far two sets of lightmaps are from each other.
+// cli/compare.h - the command `rnmbake compare`: errors between two sets of lightmaps.
 #pragma once
 
 #include <functional>

@@ -47,7 +47,7 @@ Green green_of(const DecodeOptions& options) {
        options.variant, why, remedy);
 }
 
-/// A header that cannot be relied on, taken for what rnmbake writes by default.
+/// Metadata that rnmbake writes by default, in place of an unusable header.
 LightmapMetadata assumed_metadata(const DecodeOptions& options, const std::string& why) {
   log::warn("{}: {}; decoded as an RNM lightmap in E/pi, y-up, not normalized", options.lightmap.string(),
             why);

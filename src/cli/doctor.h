@@ -1,5 +1,5 @@
-// cli/doctor.h - the command `rnmbake doctor`: what was found on this machine, what is missing, how to get
-// it.
+// cli/doctor.h - the command `rnmbake doctor`: the machine's Blender, resources, missing parts and their
+// remedies.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// cli/inspect.h - the command `rnmbake inspect`: what is in a scene, and what a bake would make of it.
+// cli/inspect.h - the command `rnmbake inspect`: objects of a scene, with the targets and faults of a bake.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,7 @@ inline constexpr const char* not_selected = "not selected";  // InspectedObject:
 struct InspectedObject {
   const SceneObject* object = nullptr;  // in the survey
   const Mesh* mesh = nullptr;
-  std::string not_baked;       // why it would not be; "" if it would
+  std::string not_baked;       // reason; "" if it would be baked
   std::string lightmap_layer;  // "" where it would be unwrapped
   std::string tangent_layer;   // "" where the lightmap's layer serves
   int resolution = 0;          // texels along a side of the whole object's lightmap

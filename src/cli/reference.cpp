@@ -43,8 +43,9 @@ int reference(const ResolvedConfig& config) {
   const BakeSettings& settings = config.globals;
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
-  if (!is_rnmscene(settings.scene.file)) (void)blender.info();  // missing: said before anything is written
-  (void)plan_reference(config, "5.0");  // and so is a setting that makes no sense, whatever the version
+  if (!is_rnmscene(settings.scene.file))
+    (void)blender.info();               // throws where it is missing, before any file is written
+  (void)plan_reference(config, "5.0");  // throws for settings that are invalid in every version
   BlenderSession session(config, blender);
   prepare_output(settings.output);
   const ExportResult exported = export_scene(session);

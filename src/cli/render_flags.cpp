@@ -16,7 +16,7 @@ namespace {
 
 constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one that is a picture still
 
-/// Settings that decide what is seen.
+/// Settings that matter for a view.
 constexpr std::array view_settings{"bounces",         "seed",           "device",        "allow_scripts",
                                    "blender_version", "blender",        "scripts",       "threads",
                                    "timeout",         "launch_timeout", "keep_temporary"};

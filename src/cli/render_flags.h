@@ -1,4 +1,4 @@
-// cli/render_flags.h - what `rnmbake render` was asked for.
+// cli/render_flags.h - the flags of `rnmbake render`.
 #pragma once
 
 #include "cli/settings_flags.h"

@@ -91,7 +91,7 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   if (!flags.fail_above.empty()) thresholds = parse_thresholds(flags.fail_above);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
-  (void)blender.info();  // a missing Blender is said before anything is written
+  (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
   prepare_output(config.globals.output);
   Validation found = validate(session, bases, {flags.decompose, flags.study == "split", flags.view});

@@ -1,4 +1,4 @@
-// process/process.h - what to run within which limits, and what became of it.
+// process/process.h - a program with its limits, and its result.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct ProcessOptions {
   double tick_seconds = 0.25;    // between two looks at the process
 };
 
-/// What a look at the running process shows.
+/// Measurements of the running process.
 struct ProcessStatus {
   double wall_seconds = 0, cpu_seconds = 0;
   std::size_t resident_bytes = 0, output_bytes = 0;

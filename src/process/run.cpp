@@ -27,7 +27,7 @@ namespace rnmbake {
 namespace {
 
 constexpr double nap_seconds = 0.01;  // how late an end may be noticed
-constexpr int patience = 500;         // naps: what does not die of SIGKILL in 5 s waits for a disk
+constexpr int patience = 500;         // naps: a process that survives SIGKILL for 5 s waits for a disk
 
 /// The file that takes stdout and stderr; without a name it is unlinked at once and read back at the end.
 class OutputFile {
@@ -91,7 +91,7 @@ class Run {
         tree_(leader_, mark_),
         group_(leader_) {}
 
-  /// Only an exception gets here with the child alive.
+  /// Ends the child where an exception left it alive.
   ~Run() {
     if (!reaped_) {
       end_tree();
@@ -111,7 +111,7 @@ class Run {
       enforce_limits();
       nap();
     }
-    end_tree();  // what the leader left running
+    end_tree();  // descendants that outlived the leader
     reap();
     result_.wall_seconds = elapsed();
     if (tick_) tick_({result_.wall_seconds, result_.cpu_seconds, 0, output_.size()});
@@ -166,7 +166,7 @@ class Run {
     }
   }
 
-  /// To the last process: what they fork before they die comes to us as an orphan.
+  /// Kills until no process is left: children that a process forks before it dies come to us as orphans.
   void end_tree() {
     for (int i = 0; i < patience; ++i) {
       const std::vector<pid_t> left = signal_tree(SIGKILL);
@@ -175,7 +175,7 @@ class Run {
     }
   }
 
-  /// The group, and those that left it. Returns who they were, without those that were dead already.
+  /// Signals the group and the processes that left it. Returns their ids, without those of dead ones.
   std::vector<pid_t> signal_tree(int signal) {
     std::vector<pid_t> members = tree_.look().members;  // before anyone becomes an orphan
     ::kill(-leader_, signal);

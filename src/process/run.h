@@ -7,11 +7,10 @@
 
 namespace rnmbake {
 
-/// Runs to the end. stdin is empty. If the program or a limit ends it, or a stop is requested
-/// (process/stop.h), the whole tree is gone when this returns, with those who left the group and the session,
-/// or whose parents ended before them; should the calling thread die, the kernel ends the child.
-/// Error(environment) if the program cannot be started, Error(io) if the output file cannot be
-/// made.
+/// Runs to the end. stdin is empty. When this returns, whether after the program's end, a limit or a stop
+/// (process/stop.h), the whole tree is gone, with processes that left the group and the session, or whose
+/// parents ended before them; should the calling thread die, the kernel ends the child. Throws
+/// Error(environment) if the program cannot be started, Error(io) if the output file cannot be made.
 ProcessResult run_process(const ProcessOptions& options, const ProcessTick& tick = {});
 
 /// "SIGSEGV", ...; "signal N" for those without a name.

@@ -1,4 +1,4 @@
-// process/spawn.h - fork and exec, with every failure of the child told to the parent.
+// process/spawn.h - fork and exec, with every failure of the child reported to the parent.
 #pragma once
 
 #include "process/process.h"

@@ -37,7 +37,7 @@ void StopRequest::install() {
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction present {};
-    // What nohup or a script's "&" made ignored stays ignored.
+    // Leaves signals ignored that nohup or a script's "&" set so.
     if (::sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }

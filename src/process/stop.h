@@ -9,7 +9,7 @@ namespace rnmbake {
 /// run_process ends its children; the second kills every running process group and this process at once.
 class StopRequest {
  public:
-  /// Installs the handlers. Without this call signals do what they always do.
+  /// Installs the handlers. Without this call signals keep their default actions.
   static void install();
 
   [[nodiscard]] static bool requested() { return signal() != 0; }

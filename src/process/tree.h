@@ -1,4 +1,4 @@
-// process/tree.h - what a process and everything it started use, read from /proc.
+// process/tree.h - resources of a process and its descendants, read from /proc.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@ struct TreeUsage {
   std::vector<pid_t> members;      // dead ones that nobody waited for, too
 };
 
-/// A process and what it started, told from all others also after its parents died: the group of the leader,
-/// all descendants, and orphans that came to us (see adopt_orphans()) if they were members before or carry
-/// the tree's mark in their environment.
+/// A process with its descendants, also after their parents' deaths: the group of the leader, all
+/// descendants, and orphans that came to us (see adopt_orphans()) if they were members before or carry the
+/// tree's mark in their environment.
 class ProcessTree {
  public:
-  /// `mark`: what launch_variable is set to in the tree's environment, and in no other.
+  /// `mark`: value of launch_variable in the tree's environment, and in no other.
   ProcessTree(pid_t leader, std::string mark) : leader_(leader), mark_(std::move(mark)) {}
 
-  /// A look at it as it is now. Empty where there is no /proc.
+  /// Measures the tree now. Empty where there is no /proc.
   [[nodiscard]] TreeUsage look();
 
  private:
@@ -44,11 +44,11 @@ class ProcessTree {
   std::set<pid_t> sessions_;              // that members began
 };
 
-/// Orphans among our descendants become our children instead of init's, so that nothing gets out of sight.
+/// Makes orphans among our descendants our children instead of init's, so that the tree stays known.
 void adopt_orphans();
 
-/// Ends what runs of this user that were killed themselves have left running: processes with a mark, whose
-/// owner is gone. Returns how many.
+/// Ends processes that killed runs of this user left behind: those with a mark whose owner is gone. Returns
+/// their number.
 int end_leftover_processes();
 
 }  // namespace rnmbake

@@ -1,5 +1,4 @@
-// report/comparison.h - what a comparison found, as plain data: those who compare fill it, the writers show
-// it.
+// report/comparison.h - results of a comparison, as plain data for the writers.
 #pragma once
 
 #include "image/float_image.h"
@@ -18,8 +17,8 @@ struct BasisMetrics {
   PictureMetrics metrics;
 };
 
-/// Textures of one basis to look at, all of one size: scaled down by report/maps.h, not for measuring.
-/// Texels that do not count are NaN. What there is none of is empty.
+/// Textures of one basis to look at, all of one size: scaled down by report/maps.h, not for measuring. Texels
+/// that do not count are NaN. Missing maps are empty.
 struct BasisMaps {
   std::string basis;
   FloatImage candidate, reference;              // RGB, E/pi
@@ -39,7 +38,7 @@ struct ObjectComparison {
   std::vector<std::string> outside_model;  // what the reference cannot trace here ("glossy", ...)
 };
 
-/// One cause of error: what it adds to the candidate's bias, and how large it is.
+/// One cause of error: its share of the candidate's bias, and its RMSE.
 struct DecompositionRow {
   std::string name;      // "tilt clamp", "bump shadowing", "self-reflection", "light from below", ...
   Statistic bias, rmse;  // E/pi

@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// What is not finite or not known is an empty field.
+/// Empty for values that are not finite or not known.
 std::string field(double value, bool known = true) {
   return known && std::isfinite(value) ? fmt::format(",{:.9g}", value) : ",";
 }

@@ -21,7 +21,7 @@ double size_of(const Statistic& statistic) {
   return std::abs(statistic.value);
 }
 
-/// What is not a number (nothing to compare with) never is the worst.
+/// Basis with the largest measure; NaN (nothing to compare with) never is.
 template <typename Measure>
 const BasisMetrics* worst_of(const std::vector<BasisMetrics>& bases, const Measure& measure) {
   const BasisMetrics* worst = nullptr;

@@ -14,7 +14,7 @@ namespace rnmbake {
 [[nodiscard]] std::string percent(double share);
 [[nodiscard]] std::string percent(const Statistic& share, bool with_sign);
 
-/// What was found over the whole scene: bias and whether its interval holds 0, RMSE, and the worst object.
+/// Sentence on the whole scene: bias and whether its interval holds 0, RMSE, and the worst object.
 [[nodiscard]] std::string finding_of(const Report& report);
 
 }  // namespace rnmbake

@@ -62,7 +62,7 @@ struct Bundle {
   }
 };
 
-/// The data elements of the page, and the list of what they hold.
+/// Data elements of the page, with the index of their textures.
 class Blobs {
  public:
   json add(const Bundle& bundle) {
@@ -128,7 +128,7 @@ json add_views(const Report& report, int limit, Blobs& blobs) {
   return views;
 }
 
-/// The page with each {{name}} replaced. What is put in is not looked at again.
+/// Page with each {{name}} replaced, once: {{name}} in a replacement stays.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& parts) {
   std::string out;
   for (std::size_t at = 0; at < page.size();) {
@@ -144,7 +144,7 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
   return out;
 }
 
-/// Text of all embedded files whose names end so.
+/// Text of all embedded files with that ending.
 std::string embedded(std::string_view ending) {
   std::string text;
   for (const auto& [name, content] : embedded_report()) {

@@ -16,7 +16,7 @@ constexpr std::uint16_t not_anumber = 0x7e00;
 constexpr int mantissa_bits = 10;
 constexpr float largest_half = 65504;
 
-/// Rounded to nearest; what rounds beyond the largest half stays the largest.
+/// Rounds to nearest; values beyond the largest half become the largest.
 std::uint16_t half_bits(float value, int kept_bits) {
   if (std::isnan(value)) return not_anumber;
   const Imath::half exact(std::clamp(value, -largest_half, largest_half));

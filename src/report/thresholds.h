@@ -12,7 +12,7 @@ namespace rnmbake {
 /// else E/pi. Throws Error(usage) naming what does not fit.
 [[nodiscard]] std::vector<Threshold> parse_thresholds(const std::string& text);
 
-/// Holds every object and basis against the limits. What cannot be told (NaN) counts as exceeded.
+/// Holds every object and basis against the limits. NaN counts as exceeded.
 [[nodiscard]] ThresholdOutcome check_thresholds(const Report& report, std::vector<Threshold> thresholds);
 
 /// "rmse 2.00 %".

@@ -59,7 +59,7 @@ Storage storage_of(const NmsOptions& options) {
   return options.bits == 16 ? Storage::u16 : Storage::u8;
 }
 
-/// What would otherwise be found out after the work.
+/// Throws Error(usage) for outputs that cannot be written, before the work.
 void check_output(const NmsOptions& options) {
   if (options.output.empty()) fail(ExitCode::usage, "nowhere to write to; pass -o FILE.png or FILE.exr");
   const Storage storage = storage_of(options);
@@ -138,10 +138,10 @@ SlopeCurl curl_of(const NmsOptions& options, const FloatImage& normals, int scal
   return slope_curl(normals, {options.clamp ? Border::clamp : Border::wrap, options.bound, scale});
 }
 
-/// A green channel that points the other way shows in the slopes.
+/// Warns where the slopes fit a surface better with the green channel reversed.
 void warn_of_green(const NmsOptions& options, const FloatImage& normals) {
   const SlopeCurl curl = curl_of(options, normals, 1);
-  constexpr double rounding = 0.01;  // what 8 bits make of flat normals is less
+  constexpr double rounding = 0.01;  // curl of flat normals in 8 bits is below
   if (curl.rms < rounding || curl.relative_flipped * 1.5 > curl.relative) return;
   log::warn("{}: its slopes fit together better with --green {}; is green right?", options.normal.string(),
             options.format.y_down ? "up" : "down");

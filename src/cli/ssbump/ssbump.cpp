@@ -79,7 +79,8 @@ int run_ssbump(const SsbumpFlags& flags) {
   return static_cast<int>(ExitCode::ok);
 }
 
-/// What is no word of the tool falls to the command above it, where it would be lost.
+/// Throws Error(usage) for words that CLI11 gave to the command above the tool, where they would have no
+/// effect.
 void refuse_strays(const CLI::App& command, const CLI::App& tool) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;

@@ -10,7 +10,7 @@ class App;
 
 namespace rnmbake {
 
-/// Adds the subcommand and those below it to `app`; the returned function runs what was parsed.
+/// Adds the subcommand and those below it to `app`; the returned function runs the parsed one.
 [[nodiscard]] std::function<int()> add_ssbump_command(CLI::App& app);
 
 }  // namespace rnmbake

@@ -17,7 +17,7 @@ class App;
 
 namespace rnmbake {
 
-/// What the command's own flags say for every method.
+/// Flags of the command that hold for every method.
 struct SsbumpRays {
   int rays = 250;
   double power = 1;

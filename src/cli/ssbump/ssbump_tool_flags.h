@@ -12,7 +12,7 @@ class App;
 
 namespace rnmbake {
 
-/// What is read: a map, and what it means where it does not say so itself.
+/// Input map, with the encoding to assume for files without metadata.
 struct SsbumpInputFlags {
   std::filesystem::path file;
   std::string scale, handed, alpha;
@@ -22,7 +22,7 @@ struct SsbumpInputFlags {
   [[nodiscard]] SsbumpPicture read() const { return read_ssbump(file, hints()); }
 };
 
-/// What is written.
+/// Output file.
 struct SsbumpOutputFlags {
   std::filesystem::path file;
   std::string bits;

@@ -1,4 +1,4 @@
-// ssbump/generate/albedo.h - a colour texture as what a surface reflects, and weights that carry it along.
+// ssbump/generate/albedo.h - albedo out of a colour texture, and weights multiplied by it.
 #pragma once
 
 #include "image/float_image.h"

@@ -47,7 +47,7 @@ SsbumpWeights some_rows(const HeightField& field, const GenerateOptions& options
   return weights;
 }
 
-/// How many rows at once keep within the memory.
+/// Rows at once within the memory limit.
 int rows_at_once(const HeightField& field, const GenerateOptions& options) {
   const std::uint64_t memory =
       options.memory > 0 ? options.memory : std::max(usable_memory() / 4, std::uint64_t{2} << 30);

@@ -15,8 +15,8 @@ SsbumpWeights generate(const HeightField& field, const GenerateOptions& options,
                        const std::function<void(double)>& progress = {},
                        const std::function<bool()>& stop = {});
 
-/// The same, for maps whose weights do not fit into memory: `done` receives all rows in order, some at a
-/// time, from the calling thread. How many does not change what they hold.
+/// generate() for maps whose weights do not fit into memory: `done` receives all rows in order, some at a
+/// time, from the calling thread. Their number does not change their values.
 void generate_rows(const HeightField& field, const GenerateOptions& options,
                    const std::function<void(int first_row, const SsbumpWeights& rows)>& done,
                    const std::function<void(double)>& progress = {}, const std::function<bool()>& stop = {});

@@ -1,4 +1,4 @@
-// ssbump/generate/generate_bounces.h - light that reaches a texel off other texels.
+// ssbump/generate/generate_bounces.h - light that other texels reflect to a texel.
 #pragma once
 
 #include "ssbump/generate_options.h"
@@ -9,11 +9,10 @@
 
 namespace rnmbake {
 
-/// Adds to weight i what arrives after 1 to `bounces` reflections while the sky sends max(0, D . B_i)^p from
-/// above. Texels reflect evenly in all directions, from the surface's own slope. As in the direct part all
-/// directions of the upper hemisphere count alike for the texel that receives, and the sum is a share of what
-/// an unoccluded texel has: with reflections a weight may exceed 1. `weights` holds the rows from first_row
-/// on.
+/// Adds to weight i the light of a sky of radiance max(0, D . B_i)^p after 1 to `bounces` reflections. Texels
+/// reflect evenly in all directions, from the surface's own slope. As in the direct part all directions of
+/// the upper hemisphere count alike for the texel that receives, and the sum is a share of what an unoccluded
+/// texel has: with reflections a weight may exceed 1. `weights` holds the rows from first_row on.
 void add_bounces(const HeightField& field, const GenerateOptions& options, int first_row,
                  SsbumpWeights& weights, const std::function<bool()>& stop);
 

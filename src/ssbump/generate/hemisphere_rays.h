@@ -1,4 +1,4 @@
-// ssbump/generate/hemisphere_rays.h - rays over a hemisphere with what each counts for in every channel of a
+// ssbump/generate/hemisphere_rays.h - rays over a hemisphere, with the weight of each in every channel of a
 // texel.
 #pragma once
 
@@ -21,8 +21,8 @@ struct WeightedRay {
 };
 
 /// Several sets of rays, evenly spread over the upper hemisphere (a Hammersley set each, moved and turned).
-/// Neighbouring texels take different ones, so that what a set gets wrong does not show as a pattern. Every
-/// set sums to the whole hemisphere in each channel, so that an unoccluded texel is 1 exactly.
+/// Neighbouring texels take different ones, so that the error of a set does not show as a pattern. Every set
+/// sums to the whole hemisphere in each channel, so that an unoccluded texel is 1 exactly.
 class HemisphereRays {
  public:
   HemisphereRays(int rays, double power, std::uint64_t seed);

@@ -36,7 +36,7 @@ std::vector<Tap> disc(int radius) {
   return taps;
 }
 
-/// Some rows with what lies about them, in units of the edge.
+/// Rows of heights padded by the disc's radius on each side, in units of the edge.
 class Padded {
  public:
   Padded(const HeightField& field, int begin, int end, int radius, float edge)
@@ -60,7 +60,7 @@ class Padded {
   std::vector<float> rows_;
 };
 
-/// How far block_side texels from `centre` on are moved, in units of the edge; `corner` is the texel at the
+/// Change in height of block_side texels from `centre` on, in units of the edge; `corner` is the texel at the
 /// disc's upper left of the first of them.
 [[gnu::target_clones("avx2", "default")]] void filter_block(const float* corner, const float* centre,
                                                             const std::vector<std::ptrdiff_t>& offsets,

@@ -16,7 +16,7 @@ struct BilateralOptions {
 /// Every height becomes a mean of those in the disc of `radius` about it. Weights: a Gaussian of the
 /// distance, standard deviation radius / 2, times the biweight (1 - (difference / edge)^2)^2 of the heights'
 /// difference, 0 from `edge` on (Tomasi & Manduchi, "Bilateral Filtering for Gray and Color Images", 1998).
-/// Computed directly, not separated: exact. What lies beyond the borders is as the field says.
+/// Computed directly, not separated: exact. Heights beyond the borders follow the field's wrap modes.
 /// `progress` receives the share that is done, from any thread.
 [[nodiscard]] FloatImage bilateral(const HeightField& field, const BilateralOptions& options,
                                    const std::function<void(double)>& progress = {});

@@ -9,7 +9,7 @@ namespace {
 constexpr double reach_of_range = 64;
 constexpr int most_periods = 16;
 
-/// A row or column of vertices: where it stands, and between which texels.
+/// Row or column of vertices: its position in texels, and the two texels whose heights it interpolates.
 struct Line {
   float place = 0;
   int first = 0, second = 0;
@@ -25,7 +25,7 @@ std::vector<float> skirt_of(double reach) {
   return places;
 }
 
-/// Of whole texels; the ones on both ends belong to what lies beyond.
+/// Rows or columns through texel centres; the first and the last lie beyond the borders.
 std::vector<Line> texel_lines(int count, WrapMode beyond, double reach) {
   std::vector<Line> lines;
   const auto last = static_cast<float>(count - 1);
@@ -42,7 +42,7 @@ std::vector<Line> texel_lines(int count, WrapMode beyond, double reach) {
   return lines;
 }
 
-/// Where the cells of a patch begin.
+/// Starts of a patch's cells, as shares of its side.
 std::vector<float> cells_of(PatchCuts cuts) {
   constexpr float narrow = 1.0F / 32;
   if (cuts == PatchCuts::one) return {0};
@@ -55,7 +55,7 @@ std::vector<Line> lines_of(int count, WrapMode beyond, double reach, PatchCuts c
   std::vector<Line> lines;
   for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
     const Line &a = whole[i], &b = whole[i + 1];
-    // What goes on as it is needs no cut.
+    // Leaves patches of one height along the axis whole.
     for (const float share : cells_of(a.first == b.first ? PatchCuts::one : cuts))
       lines.push_back({a.place + share * (b.place - a.place), a.first, b.first, share});
   }

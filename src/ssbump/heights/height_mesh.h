@@ -1,4 +1,4 @@
-// ssbump/heights/height_mesh.h - a height field as triangles, for whoever traces meshes.
+// ssbump/heights/height_mesh.h - a height field as triangles, for tracers of meshes.
 #pragma once
 
 #include "base/math.h"
@@ -17,18 +17,18 @@ struct HeightMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // anti-clockwise seen from above
 };
 
-/// Where a copy of the mesh lies: x is `sign_x` times x plus `shift_x`, and y alike.
+/// Placement of a copy of the mesh: x is `sign_x` times x plus `shift_x`, and y alike.
 struct HeightCopy {
   float shift_x = 0, shift_y = 0;
   int sign_x = 1, sign_y = 1;
 };
 
-/// How finely a patch is cut along each axis. Seen from a texel's centre, only the slope of the first cell is
-/// not the bilinear surface's, so the finer cuts have narrow cells about the centres.
+/// Number of cells of a patch along each axis. Seen from a texel's centre, only the slope of the first cell
+/// is not the bilinear surface's, so the finer cuts have narrow cells about the centres.
 enum class PatchCuts { one, three, five };
 
-/// One period of the field with the patches that join it to the next. Along an axis that nothing lies beyond
-/// the border's heights go on as far as useful_reach(). Where heights change by a texel from one to the next,
+/// One period of the field with the patches that join it to the next. Along an axis of WrapMode::none the
+/// border's heights go on as far as useful_reach(). Where heights change by a texel from one to the next,
 /// weights differ from the bilinear surface's by some 0.005 with one cell a patch, by less than 0.001 with
 /// five.
 [[nodiscard]] HeightMesh height_mesh(const HeightField& field, PatchCuts cuts = PatchCuts::five);
@@ -36,8 +36,8 @@ enum class PatchCuts { one, three, five };
 /// The copies of height_mesh() that lie within `reach` texels of the field, the field itself first.
 [[nodiscard]] std::vector<HeightCopy> height_copies(const HeightField& field, double reach);
 
-/// How far copies have to go: 64 times the range of heights, where a ray that has met nothing yet is less
-/// than a degree above the horizon; at least one period, at most 16.
+/// Distance, in texels, that copies have to cover: 64 times the range of heights, beyond which an unoccluded
+/// ray is less than a degree above the horizon; at least one period, at most 16.
 [[nodiscard]] double useful_reach(const HeightField& field);
 
 }  // namespace rnmbake

@@ -28,7 +28,7 @@ class Axis {
   [[nodiscard]] double part(double distance) const {
     return std::clamp(start_ - cell_ + speed_ * distance, 0.0, 1.0);
   }
-  /// Whether from this cell to the walk's end heights do not change by what this axis does.
+  /// Whether heights no longer change along this axis, from this cell to the walk's end.
   [[nodiscard]] bool is_over(int size, WrapMode beyond) const {
     if (speed_ == 0) return true;
     return beyond == WrapMode::none && (speed_ > 0 ? cell_ >= size - 1 : cell_ < 0);
@@ -114,7 +114,7 @@ double HeightRays::steepest(int x, int y, const Vec2& azimuth, double floor, Unt
     if (x_is_over && y_is_over) break;
     const bool crosses_x = along_x.next_line() <= along_y.next_line();
     (crosses_x ? along_x : along_y).step();
-    if (crosses_x ? y_is_over : x_is_over) {  // what is left repeats itself, farther away
+    if (crosses_x ? y_is_over : x_is_over) {  // the remaining heights repeat, farther away
       if (++repeating > 2 * (crosses_x ? field_.width() : field_.height())) break;
     }
     from = to;

@@ -1,4 +1,4 @@
-// ssbump/heights/read_heights.h - a picture as a height field: which channel, how high, which way up.
+// ssbump/heights/read_heights.h - a picture as a height field: channel, scale and sign.
 #pragma once
 
 #include "ssbump/heights/height_field.h"
@@ -12,9 +12,9 @@ namespace rnmbake {
 struct HeightOptions {
   std::string channel;  // name, "red" .. "alpha", "luminance", or number from 0; empty: luminance of R, G, B,
                         // else the only one beside alpha
-  bool invert = false;  // depths: what is far is low
-  /// Texels that a value of 1 is high: the full range of integer formats, and what floats are multiplied
-  /// with. None given: sqrt(width height) / 32 for integers, 1 for floats.
+  bool invert = false;  // the file holds depths: large values are low
+  /// Height in texels of a value of 1 (in integer formats the full range). None given: sqrt(width height) /
+  /// 32 for integers, 1 for floats.
   std::optional<double> texels;
   WrapMode x = WrapMode::wrap, y = WrapMode::wrap;
 };
@@ -27,9 +27,9 @@ struct ReadHeights {
   float lowest = 0, highest = 0;  // as the file stores them
 };
 
-/// Reads a few rows at a time, so that only the heights stay in memory. Throws Error(usage) for a channel
-/// that the file does not have, naming those that it has; Error(invalid_input) where the names do not say
-/// which channel it is, and for NaN and infinity, naming the texel; and as PictureReader.
+/// Reads a few rows at a time, so that only the heights stay in memory. Throws Error(usage) for a missing
+/// channel, naming the file's; Error(invalid_input) where the channels' names are ambiguous, and for NaN and
+/// infinity, naming the texel; and as PictureReader.
 [[nodiscard]] ReadHeights read_heights(const std::filesystem::path& file, const HeightOptions& options);
 
 }  // namespace rnmbake

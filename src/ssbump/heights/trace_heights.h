@@ -1,4 +1,4 @@
-// ssbump/heights/trace_heights.h - where rays meet a height field's bilinear patches.
+// ssbump/heights/trace_heights.h - intersections of rays with a height field's bilinear patches.
 #pragma once
 
 #include "base/math.h"
@@ -28,8 +28,8 @@ class HeightTracer {
   /// The texel's centre.
   [[nodiscard]] HeightPlace centre(int x, int y) const;
 
-  /// What a ray from a place on the surface meets next; `direction` in tangent space. Rays that have met
-  /// nothing after 65,536 cells meet nothing.
+  /// Next intersection of a ray that starts on the surface; `direction` in tangent space. Rays end after
+  /// 65,536 cells.
   [[nodiscard]] std::optional<HeightHit> next(const HeightPlace& from, const Vec3d& direction) const;
 
   /// The texel of the map that a place belongs to.

@@ -1,4 +1,5 @@
-// ssbump/horizon/elevation-inl.h - what is seen over a horizon along one azimuth, for some horizons at once.
+// ssbump/horizon/elevation-inl.h - integrals of the lobes over a horizon along one azimuth, for a vector of
+// horizons.
 //
 // Compiled for several instruction sets by horizon_sweep.cpp and horizon_sums.cpp; hence the guard that opens
 // again for each.

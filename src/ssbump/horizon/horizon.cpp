@@ -19,7 +19,7 @@ namespace {
 
 constexpr int least_period = 128;   // fewer steps hold too few slopes of lines that run into themselves
 constexpr std::size_t block = 32;   // side of the squares that are transposed at once
-constexpr int fixed_near_rows = 8;  // where the azimuths are told
+constexpr int fixed_near_rows = 8;  // where --azimuths is given
 // Where the surface is even, all error is that of the sum over azimuths, at those where its slope leaves the
 // horizon: along rows, columns and diagonals sums from a quarter on are by far the best (Euler and
 // Maclaurin), and two halves of such a sum err to opposite sides.
@@ -47,7 +47,7 @@ void for_blocks(std::size_t rows, const Work& work) {
                     [&](std::size_t part) { work(part * block, std::min(rows, (part + 1) * block)); });
 }
 
-/// The sums over the other grid, whose steps are lines here.
+/// Adds sums over the other grid, whose steps are lines here.
 void add_transposed(const SweepTarget& other, SweepTarget& target) {
   const auto rows = static_cast<std::size_t>(target.steps()),
              columns = static_cast<std::size_t>(other.steps());
@@ -66,7 +66,7 @@ void add_transposed(const SweepTarget& other, SweepTarget& target) {
   });
 }
 
-/// The target's planes as channels.
+/// Weights with the target's planes as channels.
 SsbumpWeights interleaved(const SweepTarget& target) {
   constexpr auto channels = std::size_t{SsbumpWeights::channels};
   const int width = target.last_line - target.first_line;
@@ -85,7 +85,7 @@ SsbumpWeights interleaved(const SweepTarget& target) {
   return weights;
 }
 
-/// The rows that are wanted.
+/// Sums over azimuths for the rows first_row .. last_row - 1.
 class HorizonRows {
  public:
   HorizonRows(const HeightField& field, int first_row, int last_row, int most_near_rows, double power,
@@ -99,7 +99,7 @@ class HorizonRows {
         by_rows_(grid_of(field.height(), field.y, field.width(), field.x)),
         by_columns_(grid_of(field.width(), field.x, field.height(), field.y)) {}
 
-  /// The sums over some azimuths alone. `progress`: the share of them. To be used before the next.
+  /// Sums over these azimuths alone, valid until the next call. `progress` receives the share done.
   SweepTarget& sums(const AzimuthOptions& options, const std::function<void(double)>& progress) {
     const AzimuthSets azimuths = make_azimuths(by_rows_, by_columns_, options);
     const double all = static_cast<double>(azimuths.by_rows.size() + azimuths.by_columns.size());
@@ -174,12 +174,12 @@ class HorizonRows {
   tbb::enumerable_thread_specific<SweepScratch> scratch_;
 };
 
-/// How far two estimates are from each other: the RMS, and the share of values farther apart than `much`.
+/// Difference of two estimates: RMS, and share of values that differ by more than `much`.
 struct Difference {
   double rms = 0, share_of_much = 0;
 };
 
-/// The mean of two estimates that are as good as each other goes into the first.
+/// Replaces the first estimate by the mean of both, which are equally exact. Returns their difference.
 Difference meet(SweepTarget& kept, const SweepTarget& more, double much) {
   struct Row {
     double squares = 0;

@@ -16,7 +16,7 @@ namespace rnmbake {
 inline constexpr std::size_t horizon_bytes_per_texel =
     4 * SsbumpWeights::channels * sizeof(float) + 2 * HorizonSines::azimuths * sizeof(std::uint16_t);
 
-/// The weights of rows first_row .. last_row - 1; what lies outside of them casts its shadow as ever.
+/// Weights of rows first_row .. last_row - 1; the field's other rows cast shadows on them, too.
 [[nodiscard]] SsbumpWeights horizon_rows(const HeightField& field, const GenerateOptions& options,
                                          int first_row, int last_row,
                                          const std::function<void(double)>& progress,

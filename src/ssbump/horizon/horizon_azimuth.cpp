@@ -42,7 +42,7 @@ void lay_lines(Azimuth& azimuth, const GridAxis& steps) {
 
 constexpr double least_bend = 0.01;  // of a patch's twist, by which its middle may be steeper
 
-/// A way from a texel's centre: so many lines aside, on its side, for each step.
+/// Ray from a texel's centre: |slope| lines aside, to one side, for each step.
 class NearWay {
  public:
   NearWay(double slope, int sign, std::ptrdiff_t pitch)
@@ -56,7 +56,7 @@ class NearWay {
     return {texel(row, static_cast<int>(line)), static_cast<float>(aside - line)};
   }
 
-  /// From a row to the next.
+  /// Part of the ray from a row to the next.
   [[nodiscard]] NearStep step(int row) const {
     const double from = row * steep_, to = (row + 1) * steep_, line = std::floor(from);
     NearStep step;
@@ -81,7 +81,7 @@ class NearWay {
   [[nodiscard]] std::ptrdiff_t texel(int row, int line) const {
     return row * forward_ + static_cast<std::ptrdiff_t>(line) * side_;
   }
-  /// In the first patch the steepest way is at one of its ends.
+  /// Middle of a patch. In the first patch the steepest slope is at one of its ends.
   [[nodiscard]] NearStep::Middle middle(double from, double to) const {
     const double length = to - from, at = (from + to) / 2;
     if (from == 0 || steep_ * length * length / 4 < least_bend * at) return {};
@@ -130,7 +130,7 @@ void share_angles(std::vector<Spoke>& spokes) {
   }
 }
 
-/// `whole`: what the open sky counts for, by these azimuths.
+/// `whole`: sums of the open sky over these azimuths, for each channel.
 void weigh(AzimuthLobes& lobes, const Vec2& direction, double angle, double power,
            const std::array<double, SsbumpWeights::channels>& whole) {
   const auto all = ssbump_lobes(power);

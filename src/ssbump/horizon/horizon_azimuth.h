@@ -1,4 +1,4 @@
-// ssbump/horizon/horizon_azimuth.h - the directions of a horizon sweep, and what each counts for.
+// ssbump/horizon/horizon_azimuth.h - the directions of a horizon sweep, with their weights.
 #pragma once
 
 #include "ssbump/horizon/horizon_grid.h"
@@ -11,8 +11,7 @@
 
 namespace rnmbake {
 
-/// What a texel sees along one direction in the plane counts for in the five channels, as shares of what the
-/// whole open sky counts for.
+/// Weight of one direction in the plane in each of the five channels, as share of the whole open sky's.
 struct AzimuthLobes {
   static constexpr int table_steps = 256;
 
@@ -25,7 +24,7 @@ struct AzimuthLobes {
   std::vector<float> table;
 };
 
-/// One place of the surface: between two heights, `part` of the way from `at` to the next line on the way's
+/// Point of the surface between two heights: `part` of the distance from `at` to the next line on the ray's
 /// side.
 struct RowCrossing {
   std::ptrdiff_t at = 0;  // in memory, from the texel
@@ -38,13 +37,13 @@ struct NearStep {
   /// The middle of the way across one patch: there the surface may stand higher than where the patch begins
   /// and ends. Its height is the mean of those two plus the patch's twist times `twist`.
   struct Middle {
-    bool matters = false;  // else it need not be looked at
+    bool matters = false;  // false: the twist bends the patch too little
     float twist = 0, per_height = 0;
   };
   RowCrossing row;  // of the next row
   float per_height = 0;
   Middle middle;
-  bool crosses = false;     // the rest is for those that do
+  bool crosses = false;     // true: the ray crosses a line, and the members below hold the second patch
   std::ptrdiff_t last = 0;  // in this row, the second line on the way's side: the second patch's corner
   float cross_part = 0, cross_per_height = 0;
   Middle second_middle;

@@ -1,4 +1,4 @@
-// ssbump/horizon/horizon_beyond-inl.h - what stands beyond the border that a sweep begins at.
+// ssbump/horizon/horizon_beyond-inl.h - heights beyond the border at which a sweep begins.
 //
 // Compiled for several instruction sets by horizon_sweep.cpp; hence the guard that opens again for each.
 #if defined(RNMBAKE_SSBUMP_HORIZON_BEYOND_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -23,13 +23,13 @@ namespace rnmbake::HWY_NAMESPACE {
 
 constexpr float least_bulge = 1e-6F;  // of the heights' range, by which a hull's points stand out
 
-/// Begins the hulls of a group's lines, on the side that Sign tells: rising steps (1) or falling ones (-1).
-/// The points that the first block takes in are left out.
+/// Starts the hulls of a group's lines with the points beyond one border: towards rising steps (Sign 1) or
+/// falling ones (-1). Leaves out the points of the first block.
 template <int Sign, class D>
 class BorderView {
-  static constexpr int most_periods = 256;     // that are looked over for something higher
+  static constexpr int most_periods = 256;     // searched for higher points
   static constexpr int every_step = 64;        // behind a border that goes on
-  static constexpr float least_slope = 2e-5F;  // what cannot rise above is not looked for
+  static constexpr float least_slope = 2e-5F;  // smaller slopes are not searched for
 
  public:
   BorderView(const SweepJob& job, const LineGroup& group, const SampledLines<D>& lines, SweepScratch& scratch)
@@ -46,14 +46,15 @@ class BorderView {
   }
 
  private:
-  /// The line that a line has become so many periods ahead; -1 where it has left the map.
+  /// Index of the line that continues `line` so many periods ahead; -1 where it has left the map.
   [[nodiscard]] int line_ahead(int line, int periods) const {
     line += periods * job_.azimuth.shift;
     if (job_.grid.lines.repeats()) line = job_.grid.lines.fold(line);
     return job_.lines.valid(line) ? line - job_.lines.first : -1;
   }
 
-  /// Of the next period whatever stands out, of those after it whatever is higher than all before.
+  /// Pushes the next period's outstanding points, then those of later periods that are higher than all
+  /// before.
   void look_over_periods(int line, LineHull& hull) const {
     std::array<float, most_periods + 2> before;
     before[1] = no_height;
@@ -73,7 +74,7 @@ class BorderView {
     }
   }
 
-  /// Of what is not left out.
+  /// Greatest height of a line, but for points of the first block.
   [[nodiscard]] float highest(int at, int periods) const {
     const SweepLines& lines = job_.lines;
     const std::vector<float>& highest = periods > 1 ? lines.highest
@@ -82,7 +83,7 @@ class BorderView {
     return highest[static_cast<std::size_t>(at)];
   }
 
-  /// What is higher than `record`, from far to near, and not left out.
+  /// Pushes points higher than `record`, from far to near, but for those of the first block.
   void push(LineHull& hull, int at, int periods, float record) const {
     if (job_.lines.highest[static_cast<std::size_t>(at)] <= record) return;
     const std::vector<LinePoint>& points = job_.lines.outstanding[static_cast<std::size_t>(at)];
@@ -95,8 +96,8 @@ class BorderView {
     }
   }
 
-  /// Behind a border that goes on heights change with the lines alone: far away, two looks at each are
-  /// enough.
+  /// Pushes points beyond a border whose heights go on. They change with the line alone, so that far away two
+  /// points of each line suffice.
   void look_where_it_goes_on() const {
     const int nearest = Sign > 0 ? group_.end() + group_.ahead() : -group_.ahead() - 1;
     const int stride = std::max(1, static_cast<int>(0.5 / std::max(1e-6, std::abs(job_.azimuth.slope))));
@@ -105,7 +106,7 @@ class BorderView {
     push_places({behind, Sign * stride, std::max(1, far / stride)});
     push_places({nearest, Sign, every_step});
   }
-  /// Until the lines have left the map sidewards, or nothing can rise any more.
+  /// Distance in steps after which the lines have left the map sidewards, or no slope can be larger.
   [[nodiscard]] int farthest_going_on() const {
     const double aside = job_.grid.lines.size / std::max(1e-6, std::abs(job_.azimuth.slope)) + 1;
     const int sight = job_.reciprocals.farthest() - 2 * group_.period() - every_step - 4 * group_.pad();

@@ -48,8 +48,8 @@ struct HorizonGrid {
 inline constexpr int most_lines_at_once = 16;
 inline constexpr float no_height = -1e30F;  // under which nothing can stand out
 
-/// How many floats rows have to be apart: more than `least`, and so that rows do not compete for the same
-/// places of a cache.
+/// Floats from row to row: more than `least`, an odd number of cache lines, so that rows spread over all sets
+/// of a cache.
 [[nodiscard]] constexpr std::size_t row_pitch(std::size_t least) {
   return ((least + 15) / 16 | 1) * 16;
 }

@@ -17,7 +17,7 @@ namespace rnmbake::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Keeps the steepest slope to the heights that it is shown.
+/// Maximum of the slopes to the heights given to keep().
 template <class D, class V = hn::Vec<D>>
 class Steepest {
  public:

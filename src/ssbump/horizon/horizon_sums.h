@@ -1,4 +1,4 @@
-// ssbump/horizon/horizon_sums.h - what texels see over their horizons, added up over the azimuths.
+// ssbump/horizon/horizon_sums.h - integrals of the lobes over the texels' horizons, summed over the azimuths.
 #pragma once
 
 #include "base/large_vector.h"
@@ -12,8 +12,8 @@
 
 namespace rnmbake {
 
-/// The texels that are wanted, and the sums that they add up to: one plane for each channel, lines side by
-/// side as in the grid.
+/// Sums of the texels of a range of steps and lines: one plane for each channel, lines side by side as in the
+/// grid.
 struct SweepTarget {
   int first_step = 0, last_step = 0;  // the last is the first that is not wanted
   int first_line = 0, last_line = 0;
@@ -43,8 +43,8 @@ struct HorizonSines {
   }
 };
 
-/// Adds up what a step's texels see over the horizons of these azimuths, from 0 on where they are the first.
-/// `step`: of the target.
+/// Adds the lobes' integrals over the horizons of these azimuths to the sums of one step; overwrites them
+/// where the azimuths are the first. `step`: of the target.
 void add_seen(SweepTarget& target, const HorizonSines& sines, std::span<const Azimuth> azimuths, int step,
               bool are_first);
 

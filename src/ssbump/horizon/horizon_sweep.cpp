@@ -96,7 +96,7 @@ class GroupSweep {
     }
   }
 
-  /// What stands between the border and the points that the first block takes in.
+  /// Pushes the points between the border and the first block.
   template <int Sign>
   void push_unwanted(int from, int to) {
     if (from >= to) return;
@@ -110,7 +110,7 @@ class GroupSweep {
     }
   }
 
-  /// Steps `from` to `to` of the block at `step` are wanted.
+  /// Computes the horizons at steps `from` to `to` of the block at `step`.
   template <int Sign>
   void block(int step, int from, int to) {
     Tile &near = tiles_[0], &texels = tiles_[1], &straight = tiles_[2];
@@ -151,8 +151,8 @@ class GroupSweep {
     return hn::IfThenElseZero(hn::Gt(hn::Mul(a, b), hn::Zero(d)), smaller);
   }
 
-  /// Of the texels at a step: the slope to what is near, their heights, and those straight ahead of them,
-  /// where the first point of the line is.
+  /// Writes, for the texels at a step, the slope to the near rows, their heights, and the heights straight
+  /// ahead, at the line's first point.
   template <int Sign>
   void look_near(int step, int line, float* slope, float* texels, float* straight) const {
     prefetch<Sign>(step, line);
@@ -174,7 +174,7 @@ class GroupSweep {
     __builtin_prefetch(grid_.at(soon, line + group_.count()));
   }
 
-  /// Of horizons of such slopes.
+  /// Writes the sines of horizons of these slopes.
   template <int Sign>
   void put(V slope, int step, int line) const {
     const V sine = hn::Mul(slope, inverse_root(d, hn::MulAdd(slope, slope, hn::Set(d, 1.0F))));

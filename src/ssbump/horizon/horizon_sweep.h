@@ -10,13 +10,13 @@
 
 namespace rnmbake {
 
-/// Into `lines`, whose memory is used again.
+/// Resets `lines` to an azimuth; keeps its memory.
 void begin_lines(SweepLines& lines, const HorizonGrid& grid, const Azimuth& azimuth);
 
-/// How far apart places may be that see each other.
+/// Greatest distance, in steps, of a horizon from its texel.
 [[nodiscard]] int farthest_sight(const HorizonGrid& grid);
 
-/// Lines that this processor's instructions sweep at once: they are one group.
+/// Lines of a group: as many as a vector of this processor holds.
 [[nodiscard]] int lines_at_once();
 /// The instructions in use, and all that could be, best first, in Highway's names.
 [[nodiscard]] std::vector<std::string> sweep_instructions();

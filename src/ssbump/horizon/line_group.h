@@ -1,5 +1,5 @@
-// ssbump/horizon/line_group.h - lines of a sweep that lie side by side, as many as a vector holds, and what
-// they pass.
+// ssbump/horizon/line_group.h - lines of a sweep side by side, as many as a vector holds, and the texels
+// under them.
 #pragma once
 
 #include "ssbump/horizon/sweep_lines.h"
@@ -21,13 +21,13 @@ class LineGroup {
   /// Steps of one period, in whole blocks of count().
   [[nodiscard]] int period() const { return job_.grid.steps.period; }
   [[nodiscard]] int end() const { return (period() + count_ - 1) / count_ * count_; }
-  /// How far in front of a texel its line is looked at.
+  /// Steps from a texel to the first point of its line that counts; nearer ones are the near rows'.
   [[nodiscard]] int ahead() const { return job_.near_rows + 1; }
-  /// How far the lines' heights are needed past both ends: whole blocks.
+  /// Steps past both ends at which the lines' heights are needed, in whole blocks.
   [[nodiscard]] int pad() const { return (ahead() + 2 * count_ - 1) / count_ * count_; }
 
-  /// Of what is looked at towards rising (Sign 1) or falling steps (-1), the first block takes in the nearest
-  /// points behind the border; the hull before it does without.
+  /// Whether a point beyond the border belongs to the first block of the sweep towards rising (Sign 1) or
+  /// falling steps (-1), and is left out of the hull before it.
   template <int Sign>
   [[nodiscard]] bool left_out(int step) const {
     return Sign > 0 ? step < end() + ahead() : step >= -ahead();

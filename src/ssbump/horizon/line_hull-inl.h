@@ -1,5 +1,5 @@
-// ssbump/horizon/line_hull-inl.h - how the hulls of lines grow, and what is seen of them, some texels of a
-// line at once.
+// ssbump/horizon/line_hull-inl.h - growth of the lines' hulls, and slopes to them, for a vector of a line's
+// texels.
 //
 // Compiled for several instruction sets by horizon_sweep.cpp; hence the guard that opens again for each.
 #if defined(RNMBAKE_SSBUMP_LINE_HULL_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -38,11 +38,11 @@ class LineBlock {
         points_(line + step + Sign * ahead),
         point_(hn::LoadU(d, points_)) {}
 
-  /// How high the line is, `ahead` of the texels.
+  /// Heights of the line, `ahead` of the texels.
   [[nodiscard]] HWY_INLINE V heights() const { return point_; }
 
-  /// The hull has all points before these ones, which it takes in. Returns the largest slope from eyes of
-  /// such heights over the texels to what lies `ahead` and farther, in heights for one step.
+  /// Pushes the new points onto the hull of all earlier ones. Returns the largest slope, in height per step,
+  /// from the heights `eye` over the texels to points `ahead` and farther.
   HWY_INLINE V look_and_push(LineHull& hull, V eye) const {
     V seen = hn::Mul(hn::Sub(point_, eye), hn::Set(d_, reciprocals_[ahead_]));
     // On the hull are points that every nearer one sees under a larger slope than they see any farther one.
@@ -63,7 +63,7 @@ class LineBlock {
   }
 
  private:
-  /// Down the hull, from near to far. Who looks at a hull sees slopes rise, then fall for good.
+  /// Scans the hull from near to far. Along it slopes rise to the tangent's point, then fall.
   HWY_INLINE void scan(LineHull& hull, V eye, V& seen, V& to_farther) const {
     constexpr int at_once = 4;
     const Steps steps;

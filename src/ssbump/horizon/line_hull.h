@@ -1,4 +1,5 @@
-// ssbump/horizon/line_hull.h - what of a line of heights can be the horizon of anything on one side of it.
+// ssbump/horizon/line_hull.h - the upper hull of a line of heights, where all horizons of points on one side
+// of it lie.
 //
 // Along a line only the points on the upper hull of all that lies ahead can be the horizon of anything behind
 // them (Timonen and Westerholm, "Scalable Height Field Self-Shadowing", Eurographics 2010).
@@ -15,7 +16,7 @@ struct LinePoint {
   float height = 0;
 };
 
-/// The ends of a piece of a line, as steps.
+/// Piece of a line between two steps.
 struct LinePart {
   int from = 0, to = 0;
 };
@@ -32,14 +33,14 @@ class LineHull {
   [[nodiscard]] std::int32_t* at_end() { return at_.data() + count_; }
   [[nodiscard]] float* heights_end() { return heights_.data() + count_; }
 
-  /// Keeps the farthest ones.
+  /// Keeps the `count` farthest points.
   void keep(int count) { count_ = count; }
-  /// Those written at the end.
+  /// Appends `count` points that the caller has written past the end.
   void append(int count) {
     count_ += count;
     make_room();
   }
-  /// A point that is nearer than all; those under it go.
+  /// Pushes a point nearer than all others; pops those under the new hull.
   void push(const LinePoint& point);
   void make_room() {
     if (at_.size() < static_cast<std::size_t>(count_) + most_at_once) grow();

@@ -1,4 +1,4 @@
-// ssbump/horizon/sweep_lines.h - the lines of a sweep, and what one of its threads works with.
+// ssbump/horizon/sweep_lines.h - the lines of a sweep, and a thread's memory.
 #pragma once
 
 #include "ssbump/horizon/horizon_azimuth.h"
@@ -13,13 +13,13 @@
 
 namespace rnmbake {
 
-/// Lines of one azimuth, told by where they start at step 0. Where steps repeat, what of each line may stand
-/// out of it from anywhere outside of its one period.
+/// Lines of one azimuth, indexed by their offset at step 0. Where steps repeat: points of each line's one
+/// period that can be the horizon of texels outside of that period.
 struct SweepLines {
   int first = 0, count = 0;
   std::vector<std::vector<LinePoint>> outstanding;  // steps rise
   std::vector<float> highest, highest_but_start,
-      highest_but_end;  // without what the next line's block takes in
+      highest_but_end;  // without the points of the first block in the next period
   float highest_of_all = 0;
 
   [[nodiscard]] bool valid(int line) const { return line >= first && line < first + count; }
@@ -34,7 +34,7 @@ struct SweepJob {
   int near_rows = 8;
 };
 
-/// What a thread keeps between groups of lines.
+/// Memory of a thread, kept between groups of lines.
 struct SweepScratch {
   std::vector<float> heights;      // of lines_at_once() lines, one after the other
   std::vector<LineHull> hulls;     // of each line

@@ -1,4 +1,4 @@
-// ssbump/map/compression_error.h - what a compressed format does to the light that a map gives.
+// ssbump/map/compression_error.h - error of light and bent normals in a compressed format.
 #pragma once
 
 #include "image/float_image.h"

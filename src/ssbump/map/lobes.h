@@ -1,5 +1,4 @@
-// ssbump/map/lobes.h - the axes that light is sorted by, and what arrives along them where nothing stands in
-// the way.
+// ssbump/map/lobes.h - the lobes of a map's channels, and their integrals over the open sky.
 #pragma once
 
 #include "base/math.h"

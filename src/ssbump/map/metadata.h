@@ -1,4 +1,4 @@
-// ssbump/map/metadata.h - what a self-shadowed bump map says about itself, to and from a file's attributes.
+// ssbump/map/metadata.h - encoding and origin of a self-shadowed bump map, to and from a file's attributes.
 #pragma once
 
 #include "image/layered_exr.h"
@@ -13,8 +13,8 @@
 
 namespace rnmbake {
 
-/// What a channel stores where nothing is in the light's way. third: 1/3, so that the three sum to 1;
-/// ndotb: N . B = 1/sqrt 3; mod2x: half of that, doubled by the shader.
+/// Value of a channel where light is not occluded. third: 1/3, so that the three sum to 1; ndotb: N . B =
+/// 1/sqrt 3; mod2x: half of that, doubled by the shader.
 enum class SsbumpScale : std::uint8_t { third, ndotb, mod2x };
 
 /// Which way y points: right-handed up (OpenGL, Blender), left-handed down (Direct3D, Source). The channels

@@ -14,9 +14,9 @@ namespace rnmbake {
 /// Takes three channels or more.
 [[nodiscard]] FloatImage bent_normals(const FloatImage& weights);
 
-/// What a normal map alone says of the weights (SsbumpWeights, five channels): sat(N . B_i) over that of a
-/// flat normal, so up to sqrt 3; straight up is sat(N_z), ambient 1, as nothing is in the light's way.
-/// `normals`: unit length, y up.
+/// Weights (SsbumpWeights, five channels) out of a normal map alone: sat(N . B_i) over that of a flat normal,
+/// so up to sqrt 3; straight up is sat(N_z), ambient 1, as nothing is in the light's way. `normals`: unit
+/// length, y up.
 [[nodiscard]] FloatImage weights_of_normals(const FloatImage& normals);
 
 /// Unit vectors to what a normal map stores, (n + 1) / 2 with y up or down.

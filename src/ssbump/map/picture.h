@@ -12,7 +12,7 @@
 
 namespace rnmbake {
 
-/// What a file without metadata means, where the user says so.
+/// User's statements on the encoding of a file without metadata.
 struct SsbumpHints {
   std::optional<SsbumpScale> scale;
   std::optional<Handed> handed;
@@ -26,9 +26,9 @@ struct SsbumpPicture {
   std::string storage;        // "uint8", ...
 };
 
-/// What the file says of itself comes first, then `told`; else scale third, right-handed, no alpha, with a
-/// warning. Throws Error(usage) where `told` contradicts the file, Error(invalid_input) where there are fewer
-/// than three channels or a value is not finite (naming the texel), and as PictureReader.
+/// Reads the encoding from the file's metadata, else from `told`, else takes scale third, right-handed, no
+/// alpha, with a warning. Throws Error(usage) where `told` contradicts the file, Error(invalid_input) where
+/// there are fewer than three channels or a value is not finite (naming the texel), and as PictureReader.
 [[nodiscard]] SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpHints& hints);
 
 /// Writes it whole, with `metadata` and what `output` says of encoding and storage.

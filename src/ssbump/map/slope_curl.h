@@ -8,10 +8,10 @@
 
 namespace rnmbake {
 
-/// Slopes p = dh/dx and q = dh/dy of a surface have dp/dy = dq/dx. What is between the two is how much higher
-/// one arrives after a walk around a square, for each of its area.
+/// Slopes p = dh/dx and q = dh/dy of a surface have dp/dy = dq/dx. Their difference is the gain in height on
+/// a closed walk around a square, over the square's area.
 struct SlopeCurl {
-  std::size_t places = 0;  // looked at: squares of `scale` texels
+  std::size_t places = 0;  // squares of `scale` texels
   double rms = 0;          // of dp/dy - dq/dx; heights and distances in texels
   double worst = 0;        // largest absolute value,
   int worst_x = 0, worst_y = 0;
@@ -25,7 +25,7 @@ struct SlopeCurl {
 struct SlopeCurlOptions {
   Border border = Border::wrap;  // with clamp the outermost places are not looked at
   double bound = 0.1;
-  int scale = 1;  // slopes are averaged over squares of so many texels first; what is left over is left out
+  int scale = 1;  // slopes are averaged over squares of so many texels first; incomplete squares do not count
 };
 
 /// Central differences between the neighbours on either side. Slopes end at 100 (89.4 degrees). `normals`:

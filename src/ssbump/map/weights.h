@@ -1,11 +1,11 @@
-// ssbump/map/weights.h - what a self-shadowed bump map stores of each texel, before it is encoded.
+// ssbump/map/weights.h - weights of a self-shadowed bump map, before they are encoded.
 #pragma once
 
 #include "image/float_image.h"
 
 namespace rnmbake {
 
-/// How much of the light along an axis arrives, with power p (Green, "Efficient Self-Shadowed Radiosity
+/// Share of the light along each axis that arrives, with power p (Green, "Efficient Self-Shadowed Radiosity
 /// Normal Mapping", SIGGRAPH 2007):
 ///     s = visible integral of max(0, D . axis)^p dD / the same over the whole upper hemisphere, in [0, 1].
 /// Channels 0-2: the Half-Life 2 basis in its order right, upper left, lower left (encoding/rnm.h),

@@ -12,7 +12,7 @@
 
 namespace rnmbake {
 
-/// Where detail is put: an object's triangles with the UVs and the tangent frames of its normal map.
+/// Low-poly surface: an object's triangles with the UVs and the tangent frames of its normal map.
 struct LowSurface {
   std::string name;
   Surface surface;

@@ -15,7 +15,8 @@
 namespace rnmbake {
 namespace {
 
-/// How far rays start off the surface: some 10 times the spacing of floats there, little beside a small mesh.
+/// Offset of rays' starts off the surface, world units: some 10 times the spacing of floats there, little
+/// beside a small mesh.
 float lift(const Vec3& position, double diagonal) {
   const double near_origin = std::clamp(1e-3 * diagonal, 1e-6, 1e-5);
   return static_cast<float>(std::max(near_origin, 1e-6 * double(position.length())));
@@ -46,7 +47,7 @@ struct Detail {
   bool behind = false;
 };
 
-/// What the places of a texel add up to.
+/// Sums over the places of a texel.
 struct TexelSum {
   SsbumpChannels visible{}, whole{};
   Vec3 normal{0, 0, 0};

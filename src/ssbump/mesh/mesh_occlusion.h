@@ -1,5 +1,4 @@
-// ssbump/mesh/mesh_occlusion.h - how a detailed surface shades itself, measured for the texels of a coarse
-// one.
+// ssbump/mesh/mesh_occlusion.h - occlusion of a detailed surface by itself, for the texels of a coarse one.
 #pragma once
 
 #include "base/math.h"
@@ -32,7 +31,7 @@ struct MeshOcclusionOptions {
   int threads = 0;  // 0: all cores
 };
 
-/// What of a low surface found no detail within the cage.
+/// Texels of a low surface without detail within the cage.
 struct SurfaceMisses {
   std::size_t texels = 0;          // that it covers
   std::size_t missed = 0;          // with no detail at any of their places
@@ -53,8 +52,8 @@ struct MeshOcclusion {
 /// it to one below; the first face that it meets from its front is the detail there (a back where there is no
 /// front). From that point rays run over the hemisphere above the low surface's tangent plane, whose axes are
 /// its interpolated tangent frame; those that enter the detail's own face are blocked. Texels without a value
-/// are 0. Deterministic for a seed at any number of threads. `go_on` is asked now and then, with the share
-/// done; when it says false, what was done so far is returned. Throws Error(environment) where Embree fails.
+/// are 0. Deterministic for a seed at any number of threads. Calls `go_on` now and then with the share done;
+/// where it returns false, returns the texels done so far. Throws Error(environment) where Embree fails.
 [[nodiscard]] MeshOcclusion measure_occlusion(const HighMesh& high, std::span<const LowSurface> low,
                                               const MeshOcclusionOptions& options,
                                               const std::function<bool(double)>& go_on = {});

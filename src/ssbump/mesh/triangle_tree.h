@@ -1,5 +1,4 @@
-// ssbump/mesh/triangle_tree.h - Embree's tree over plain triangles: what is met first, and is anything in the
-// way.
+// ssbump/mesh/triangle_tree.h - Embree's tree over plain triangles: nearest hits and occlusion.
 #pragma once
 
 #include "base/math.h"
@@ -13,7 +12,7 @@ namespace rnmbake {
 
 class EmbreeScene;
 
-/// What a ray has met.
+/// Hit of a ray.
 struct TriangleHit {
   std::uint32_t triangle = 0;
   float distance = 0;

@@ -17,7 +17,7 @@ struct BakedLight {
   bool y_down = false;  // its tangent space
 };
 
-/// How many times the normal map lies over the lightmap, along each axis.
+/// Repeats of the normal map over the lightmap, along each axis.
 struct Repeat {
   int u = 1, v = 1;
 };

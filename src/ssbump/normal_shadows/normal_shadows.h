@@ -11,12 +11,12 @@
 
 namespace rnmbake {
 
-/// The published parameters. From a texel the normals are walked towards the light, and what they rise over
-/// the light's ray is summed: where the sum is above 0 the surface stands in the light.
+/// The published parameters. From a texel normals are sampled towards the light, and the rise of their slopes
+/// over the light's ray is summed: where the sum is above 0 the surface stands in the light.
 struct NormalShadowOptions {
-  float length = 0.22F;  // H: how far to walk, as a share of the map's longer side times |light.xy|
+  float length = 0.22F;  // H: length of the walk, as share of the map's longer side times |light.xy|
   int steps = 32;        // N
-  std::optional<float> hardness{};  // 50 H where nothing is said
+  std::optional<float> hardness{};  // empty: 50 H
   bool hard = false;                // 0 or 1: stops at the first step that is in the light
   Border border = Border::wrap;
   /// Sums dot(light, n) / n.z instead of dot(light, n): how far the surface really rises over the ray. An
