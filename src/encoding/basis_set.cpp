@@ -83,12 +83,17 @@ BasisDirection flat_direction() {
   return {std::string(flat_layers.front()), Vec3(0, 0, 1)};
 }
 
-bool holds_rnm(const BasisSet& set) {
-  return std::ranges::all_of(rnm_set().directions, [&](const BasisDirection& wanted) {
-    return std::ranges::any_of(set.directions, [&](const BasisDirection& basis) {
-      return basis.name == wanted.name && is_near(basis.direction, wanted.direction);
-    });
+std::optional<std::size_t> place_of(const BasisSet& set, const BasisDirection& wanted) {
+  const auto found = std::ranges::find_if(set.directions, [&](const BasisDirection& basis) {
+    return basis.name == wanted.name && is_near(basis.direction, wanted.direction);
   });
+  if (found == set.directions.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - set.directions.begin());
+}
+
+bool holds_rnm(const BasisSet& set) {
+  return std::ranges::all_of(rnm_set().directions,
+                             [&](const BasisDirection& wanted) { return place_of(set, wanted).has_value(); });
 }
 
 bool is_file_safe(std::string_view name) {

@@ -3,6 +3,8 @@
 
 #include "base/math.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,9 @@ struct BasisSet {
 
 /// The surface normal itself, (0, 0, 1), under the name "flat".
 [[nodiscard]] BasisDirection flat_direction();
+
+/// Where the set holds a direction of that name and (within 1e-3) that vector.
+[[nodiscard]] std::optional<std::size_t> place_of(const BasisSet& set, const BasisDirection& wanted);
 
 /// True where the set holds rnm0 .. rnm2 with the directions of the Half-Life 2 basis (within 1e-3).
 [[nodiscard]] bool holds_rnm(const BasisSet& set);

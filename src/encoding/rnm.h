@@ -61,10 +61,10 @@ template <typename Colour>
 /// One colour channel of the three maps, scaled so that their mean is `flat` (as vrad does it). Three zeros
 /// cannot be scaled and become `flat` each, so that a flat normal decodes to the flat bake everywhere.
 [[nodiscard]] inline std::array<float, 3> rnm_scaled_to_flat(const std::array<float, 3>& maps, float flat) {
-  const float sum = maps[0] + maps[1] + maps[2];
+  const double sum = static_cast<double>(maps[0]) + maps[1] + maps[2];
   if (!(sum > 0)) return {flat, flat, flat};
-  const float scale = 3 * flat / sum;
-  return {maps[0] * scale, maps[1] * scale, maps[2] * scale};
+  const auto scaled = [&](float map) { return static_cast<float>(map / sum * 3 * flat); };
+  return {scaled(maps[0]), scaled(maps[1]), scaled(maps[2])};
 }
 
 }  // namespace rnmbake

@@ -1,0 +1,72 @@
+// encoding/codec.h - one way to keep a texel's directional light: from baked values to coefficients and back.
+#pragma once
+
+#include "base/math.h"
+#include "encoding/basis_set.h"
+#include "encoding/texel_frame.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct CodecOptions {
+  std::string name;  // one of codec_names()
+};
+
+/// What had to be bent, in texels.
+struct EncodeCounts {
+  std::size_t texels = 0;
+  std::size_t non_finite = 0;  // bakes that are no numbers, or beyond 1e30: written as darkness
+  std::size_t negative_lobes =
+      0;  // decodes below -1e-3 of the greatest bake at some normal tilted up to 60 degrees
+  std::size_t over_long = 0;    // |v| > 2a, which no light's harmonics have: the fit of a hemisphere may
+  std::size_t unconverged = 0;  // a refit that does not return the bakes; the nearest numbers were written
+
+  EncodeCounts& operator+=(const EncodeCounts& other);
+};
+
+class Codec {
+ public:
+  Codec() = default;
+  Codec(const Codec&) = delete;
+  Codec& operator=(const Codec&) = delete;
+  virtual ~Codec() = default;
+
+  /// Names of the layers, each RGB: what a file of this encoding holds.
+  [[nodiscard]] virtual const std::vector<std::string>& layers() const = 0;
+
+  /// Layers may be kept in any space that a TexelFrame leads to; otherwise encode() expects none.
+  [[nodiscard]] virtual bool can_rotate() const = 0;
+
+  /// `irradiance`: E/pi, RGB, at each direction that the codec was made for, in their order. Writes RGB for
+  /// each layer, always finite.
+  EncodeCounts encode(std::span<const Vec3> irradiance, std::span<Vec3> layers,
+                      const TexelFrame& frame = {}) const;
+
+  /// E/pi, RGB, for a unit normal in the space of the layers. May be negative where the lobe is.
+  [[nodiscard]] virtual Vec3 decode(std::span<const Vec3> layers, const Vec3& normal) const = 0;
+
+ private:
+  /// Of finite bakes.
+  virtual EncodeCounts encode_texel(std::span<const Vec3> irradiance, std::span<Vec3> layers,
+                                    const TexelFrame& frame) const = 0;
+};
+
+/// Every name that make_codec() knows.
+[[nodiscard]] std::vector<std::string> codec_names();
+
+/// Throws Error(usage) for a name that does not exist, Error(unsupported), with the remedy, where
+/// `directions` cannot feed the encoding.
+[[nodiscard]] std::unique_ptr<const Codec> make_codec(const CodecOptions& options,
+                                                      const BasisSet& directions);
+
+/// Where the set holds the direction (within 1e-3) under its name. Throws Error(unsupported), naming the
+/// encoding, where it does not.
+[[nodiscard]] std::size_t needed_direction(const BasisSet& set, const BasisDirection& wanted,
+                                           const std::string& encoding);
+
+}  // namespace rnmbake

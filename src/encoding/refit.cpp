@@ -1,0 +1,89 @@
+#include "encoding/refit.h"
+
+#include "encoding/gauss_newton.h"
+#include "encoding/rnm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rnmbake {
+namespace {
+
+constexpr double least_a = 1e-6;  // of the greatest bake
+
+FourNumbers numbers_from(Lobe lobe, const FourBakes& bakes, const FourNumbers& start) {
+  const auto directions = four_directions();
+  const auto model = [&](const std::array<double, 4>& x) {
+    Residual<4, 4> residual;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const LobeValue value = lobe(x[0], {x[1], x[2], x[3]}, directions[k]);
+      residual.values[k] = value.value - bakes[k];
+      residual.jacobian[k] = {value.by_a, value.by_v.x, value.by_v.y, value.by_v.z};
+    }
+    return residual;
+  };
+  constexpr double far = std::numeric_limits<double>::max();
+  const Bounds<4> bounds{{least_a, -far, -far, -far}, {far, far, far, far}};
+  const auto [x, cost] =
+      damped_gauss_newton(model, std::array{start.a, start.v.x, start.v.y, start.v.z}, bounds);
+  FourNumbers found{x[0], {x[1], x[2], x[3]}, true};
+  for (const double error : model(x).values) found.has_converged &= std::abs(error) <= 1e-6;
+  return found;
+}
+
+double squared_error(Lobe lobe, const FourBakes& bakes, const FourNumbers& numbers) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double error = lobe(numbers.a, numbers.v, four_directions()[k]).value - bakes[k];
+    sum += error * error;
+  }
+  return sum;
+}
+
+/// Numbers with v along `towards` and |v| = ratio a, linear in the normal, that meet the flat bake.
+FourNumbers start_at(double ratio, const Vec3d& towards, double flat) {
+  const double a = std::max(std::abs(flat) / (1 + ratio * std::max(0.0, towards.z)), least_a);
+  return {a, towards * (ratio * a), true};
+}
+
+}  // namespace
+
+std::array<Vec3d, 4> four_directions() {
+  const auto basis = rnm_basis();
+  return {Vec3d(0, 0, 1), Vec3d(basis[0]), Vec3d(basis[1]), Vec3d(basis[2])};
+}
+
+FourNumbers linear_numbers(const FourBakes& bakes) {
+  const auto directions = four_directions();
+  Vec3d sum(0);
+  double mean = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    sum += directions[i] * bakes[i];
+    mean += bakes[i] / 3;
+  }
+  const double up = (bakes[0] - mean) / (1 - directions[1].z);
+  return {bakes[0] - up, {sum.x, sum.y, up}, true};
+}
+
+FourNumbers refit(Lobe lobe, const FourBakes& bakes) {
+  double scale = 0;
+  for (const double bake : bakes) scale = std::max(scale, std::abs(bake));
+  if (scale == 0) return {};
+  FourBakes scaled = bakes;
+  for (double& bake : scaled) bake /= scale;
+  const FourNumbers linear = linear_numbers(scaled);
+  const double length = linear.v.length();
+  const Vec3d towards = length > 0 ? linear.v / length : Vec3d(0, 0, 1);
+  // No light has harmonics with |v| > 2a, and from there the steps rarely find back.
+  const bool is_likely = linear.a > least_a && length < 2 * linear.a;
+  FourNumbers best = numbers_from(lobe, scaled, is_likely ? linear : start_at(1.5, towards, scaled[0]));
+  for (const double ratio : {1.0, 0.5, 1.9}) {
+    if (best.has_converged) break;
+    const FourNumbers other = numbers_from(lobe, scaled, start_at(ratio, towards, scaled[0]));
+    if (squared_error(lobe, scaled, other) < squared_error(lobe, scaled, best)) best = other;
+  }
+  return {best.a * scale, best.v * scale, best.has_converged};
+}
+
+}  // namespace rnmbake
