@@ -6,7 +6,6 @@
 #include "encoding/texel_frame.h"
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@
 namespace rnmbake {
 
 struct CodecOptions {
-  std::string name;  // one of codec_names()
+  std::string name;  // one of codec_names(), encoding/make_codec.h
 };
 
 /// What had to be bent, in texels.
@@ -55,14 +54,6 @@ class Codec {
   virtual EncodeCounts encode_texel(std::span<const Vec3> irradiance, std::span<Vec3> layers,
                                     const TexelFrame& frame) const = 0;
 };
-
-/// Every name that make_codec() knows.
-[[nodiscard]] std::vector<std::string> codec_names();
-
-/// Throws Error(usage) for a name that does not exist, Error(unsupported), with the remedy, where
-/// `directions` cannot feed the encoding.
-[[nodiscard]] std::unique_ptr<const Codec> make_codec(const CodecOptions& options,
-                                                      const BasisSet& directions);
 
 /// Where the set holds the direction (within 1e-3) under its name. Throws Error(unsupported), naming the
 /// encoding, where it does not.

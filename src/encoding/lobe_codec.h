@@ -3,6 +3,8 @@
 
 #include "encoding/codec.h"
 
+#include <memory>
+
 namespace rnmbake {
 
 /// `sh2` (interpolates the four bakes), `zh3` and `geomerics` (refitted so that the decoder returns the four

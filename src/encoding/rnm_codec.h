@@ -3,6 +3,8 @@
 
 #include "encoding/codec.h"
 
+#include <memory>
+
 namespace rnmbake {
 
 /// `flat`: the plain lightmap, the same for every normal.

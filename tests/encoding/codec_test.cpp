@@ -1,6 +1,7 @@
 #include "encoding/codec.h"
 
 #include "base/error.h"
+#include "encoding/make_codec.h"
 #include "encoding/random_light.h"
 
 #include <algorithm>

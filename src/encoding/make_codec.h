@@ -1,0 +1,20 @@
+// encoding/make_codec.h - the codecs by the names that users type.
+#pragma once
+
+#include "encoding/codec.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// Every name that make_codec() knows.
+[[nodiscard]] std::vector<std::string> codec_names();
+
+/// Throws Error(usage) for a name that does not exist, Error(unsupported), with the remedy, where
+/// `directions` cannot feed the encoding.
+[[nodiscard]] std::unique_ptr<const Codec> make_codec(const CodecOptions& options,
+                                                      const BasisSet& directions);
+
+}  // namespace rnmbake
