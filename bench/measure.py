@@ -20,7 +20,7 @@ QUIET = 0.75  # of the cores may be busy with other things for a wall clock to b
 
 
 def machine():
-    """What the figures depend on, in words."""
+    """Cores, architecture, system and Blender, on which the figures depend, in words."""
     system = dict(line.rstrip().split("=", 1) for line in open("/etc/os-release", encoding="utf-8") if "=" in line)
     version = subprocess.run([BLENDER, "--version"], capture_output=True, text=True, check=True).stdout.split("\n")[0]
     words = system["PRETTY_NAME"].strip('"').split()

@@ -1,4 +1,4 @@
-"""What Blender's memory grows by: atlas pixels, triangles of the scene, triangles of receivers."""
+"""Blender's bytes for each atlas pixel, triangle of the scene and triangle of receivers."""
 import re
 
 from measure import ROOT, WORK, HEADLESS, BLENDER, bake, run, say

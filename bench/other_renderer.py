@@ -60,6 +60,6 @@ def ratios(truth, plain, other):
 
 
 def diffuse(pixel):
-    """All of it shows surfaces, which reflect something in each colour and do not glow."""
+    """Whether the whole pixel shows surfaces that reflect each colour and do not glow."""
     light, coverage, albedo = pixel[:3], pixel[3], pixel[4:7]
     return coverage > 0.999 and min(albedo) > 0.01 and all(abs(a - b) < 1e-3 for a, b in zip(light, albedo))

@@ -1,4 +1,4 @@
-"""What rnmbake costs beside the Cycles time inside it."""
+"""Seconds of a bake beside those of Cycles."""
 from measure import LIVING_ROOM, bake, hall, say
 from tables import mebibytes, seconds, table
 

@@ -71,12 +71,12 @@ def validate(name, scene, path, resolution, samples):
 
 
 def machine():
-    """Without the Blender that the other benchmarks take."""
+    """The machine without the Blender of the other benchmarks."""
     return measure.machine().rpartition(", ")[0]
 
 
 def measured(options, name, scene, version, path):
-    """One run, with what went wrong in place of figures."""
+    """One run; with the error in place of figures where it failed."""
     resolution, samples = {**OURS, **REAL}[name]
     head = {"scene": name, "blender": version, "resolution": options.resolution or resolution,
             "samples": options.samples or samples, "date": time.strftime("%Y-%m-%d"), "machine": machine()}
@@ -107,7 +107,7 @@ def run_text(run):
 
 
 def keep(run):
-    """In the place of an older run of the same; read anew, for another process may have added to it."""
+    """Replace an older run of the same; reads the file again, for another process may have added to it."""
     def key(one):
         return one["scene"], one["blender"]
     results = read()

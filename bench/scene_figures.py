@@ -1,4 +1,4 @@
-"""What is kept of the reports that `rnmbake validate` writes, and how it counts."""
+"""Figures kept of the reports of `rnmbake validate`, and when a bias counts."""
 import json
 
 NEGLIGIBLE = 0.003  # of the mean: a bias that is accepted whatever its interval says
@@ -55,7 +55,7 @@ def holds(estimate):
 
 
 def distance(estimate):
-    """From 0, in half widths of the interval."""
+    """Distance from 0, in half widths of the interval."""
     return abs(estimate[0]) / max(1e-12, (estimate[2] - estimate[1]) / 2)
 
 
@@ -68,7 +68,7 @@ def pairs(run):
 
 
 def residuals(run):
-    """The same of what no cause explains."""
+    """(object, basis, residual) where the reference is not black."""
     for one in run["objects"]:
         for basis, residual in one["residual"].items():
             if one["bases"][basis]["mean"] and known(residual):

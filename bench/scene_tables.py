@@ -95,7 +95,7 @@ def receiver_row(run):
 
 
 def chance(all_pairs):
-    """How many pairs of an exact bake do not hold: one in twenty of those whose interval is wider than what is accepted."""
+    """Expected number of pairs that do not hold in an exact bake: one in twenty of intervals wider than NEGLIGIBLE."""
     return CHANCE * sum((bias[2] - bias[1]) / 2 > NEGLIGIBLE for _, _, bias in all_pairs)
 
 
@@ -105,7 +105,7 @@ def outside(run):
 
 
 def beyond(runs):
-    """Which pairs do not hold, the farthest first."""
+    """Pairs that do not hold, the farthest first."""
     lines = []
     for run in runs:
         listed = outside(run)
@@ -125,7 +125,7 @@ def recipe_table(runs):
 
 
 def worst_residuals(run):
-    """Which objects the unexplained belongs to, the farthest first."""
+    """Objects with an unexplained residual, the farthest first."""
     missed = sorted((one for one in residuals(run) if not holds_zero(one[2])), key=lambda one: -distance(one[2]))
     words = ", ".join(f"`{name}` {basis} {percent(residual)}" for name, basis, residual in missed[:3])
     return f"- {run['scene']}, {run['blender']}: {words}" if missed else ""

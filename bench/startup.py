@@ -1,4 +1,4 @@
-"""Where the time of a small bake goes: each start of Blender on its own."""
+"""Seconds of each start of Blender in a small bake."""
 import tempfile
 from pathlib import Path
 

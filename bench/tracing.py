@@ -74,7 +74,7 @@ def basis_row(metrics):
 
 
 def typical(objects):
-    """Of each object the ratio of squared noises, mean over its bases; the median object's."""
+    """Median over the objects of the ratio of squared noises, mean over the bases."""
     ratios = []
     for one in objects:
         squares = [(basis["noise"]["candidate"] ** 2, basis["noise"]["reference"] ** 2) for basis in one["bases"]]
@@ -100,7 +100,7 @@ def speed_up(row):
 
 
 def measured_on(rows):
-    """Which scenes were measured on which day; nothing where all were on the same."""
+    """Days of measurement by scene; "" where all are the same."""
     days = {}
     for row in rows:
         days.setdefault(row.get("date"), []).append(row["scene"])

@@ -1,4 +1,4 @@
-"""Blender runs this to tell the driver what it would render: survey.json and survey.bin."""
+"""Blender runs this to write the scene survey: survey.json and survey.bin."""
 import os
 import sys
 

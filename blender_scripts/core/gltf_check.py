@@ -1,4 +1,4 @@
-"""Whether a glTF file holds together, before an importer that answers in tracebacks gets it."""
+"""Checks a glTF file's references and sizes before the importer, whose answer to broken files is a traceback."""
 import math
 
 from core.gltf_accessors import COMPONENTS, TYPES, element_bytes, little_endian

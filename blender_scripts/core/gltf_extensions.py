@@ -10,7 +10,7 @@ HARMLESS = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_node_selectability", "KHR_node_ho
             "OMI_physics_shape", "OMI_collider", "OMI_audio_emitter", "OMI_spawn_point", "MOZ_hubs_components",
             "VRMC_vrm", "VRMC_springBone", "VRMC_node_constraint", "MSFT_packing_normalRoughnessMetallic",
             "MSFT_packing_occlusionRoughnessMetallic", "GOOGLE_texture_basis"}
-# What is lost with it, and what mends that.
+# Loss without the extension, and its remedy.
 LOST = {
     "EXT_lights_image_based": "its environment gives no light; set a world in Blender",
     "EXT_lights_ies": "its lamps shine alike in all directions",

@@ -69,7 +69,7 @@ def keep_one_scene(gltf):
 
 
 def empty(node):
-    """Whether there was anything in it."""
+    """Remove a node's contents; returns whether it had any."""
     there = [key for key in CONTENT if key in node]
     for key in there:
         del node[key]

@@ -53,7 +53,7 @@ class Task:
         print("rnmbake: event", self._events, phase, flush=True)
 
     def disk_is_full(self, error):
-        """Whether `error` was for want of room; what Blender itself could not write it says in words only."""
+        """Whether `error` means a full disk; Blender's own errors have a message, but no errno."""
         if isinstance(error, OSError) and error.errno in FULL:
             return True
         space = os.statvfs(self.folder)

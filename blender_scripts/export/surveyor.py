@@ -10,7 +10,7 @@ from survey.surveyor import Surveyor
 
 
 def gives_no_light(ob):
-    """To diffuse surfaces. A portal is a hint where to look for the world, and no light."""
+    """Whether a lamp lights no diffuse surface. A portal guides the sampling of the world, and emits nothing."""
     return not ob.visible_diffuse or getattr(getattr(ob.data, "cycles", None), "is_portal", False)
 
 
@@ -50,7 +50,7 @@ class ExportSurveyor(Surveyor):
             self.outside.append({"owner": owner, "what": sorted({*what, *untraced}), "untraced": sorted(untraced)})
 
     def finish(self):
-        """What must not happen while the survey renders; then the file is complete."""
+        """Complete the file by steps that would change the survey's own renders."""
         scene = bpy.context.scene
         self.lights = [light for light, off in zip(self.lights, self._lights_off) if not off]
         for light in self.lights:

@@ -39,7 +39,7 @@ def describe(task, scene, file):
 
 
 def world_of(view_layer):
-    """What Cycles renders; None for a view layer without Environment."""
+    """The world that Cycles renders; None for a view layer without Environment."""
     if not view_layer.use_sky:
         return None
     return getattr(view_layer, "world_override", None) or bpy.context.scene.world
@@ -83,7 +83,7 @@ def render(task, like, world, file):
 
 
 def expose(task, scene, samples):
-    """One render: RGB, top row first."""
+    """Render once: RGB, top row first."""
     path = task.path("world.exr")
     scene.render.filepath, scene.cycles.samples = path, samples
     bpy.ops.render.render(write_still=True, scene=scene.name)

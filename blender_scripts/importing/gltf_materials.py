@@ -6,7 +6,7 @@ from core.gltf_prepare import TAG
 from scene_ops.describe_nodes import active_output, find_input
 from scene_ops.see_through import feed
 
-# What diffuse rays, shadows and the like meet, by the switches of an object.
+# An object's visibility to diffuse rays, shadow rays and the like.
 SEEN_BY_LIGHT = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
                  "visible_shadow")
 
@@ -57,7 +57,7 @@ def cut_off(material, cutoff):
 
 
 def alpha_socket(material):
-    """Of the Principled BSDF; where there is none, of the mix with a Transparent BSDF that ends the tree."""
+    """Socket of the alpha: of the Principled BSDF, else of the final mix with a Transparent BSDF."""
     for node in material.node_tree.nodes:
         if node.type == "BSDF_PRINCIPLED":
             return node.inputs["Alpha"]

@@ -34,7 +34,7 @@ def import_gltf(task):
 
 
 def importer_knows(extension):
-    """Whether the importer's own code speaks of it."""
+    """Whether the importer's source names the extension."""
     if extension == "KHR_draco_mesh_compression":
         return has_draco()
     import io_scene_gltf2

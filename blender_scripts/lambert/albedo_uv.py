@@ -131,7 +131,7 @@ def mesh_to_bake(mesh, layer, uv):
 
 
 def keep_uv(mesh, uv):
-    """As a plain attribute: a further UV layer would be taken for the scene's lightmap UVs."""
+    """Store UVs as a plain attribute: another UV layer would be taken for the scene's lightmap UVs."""
     if UV_ATTRIBUTE in mesh.attributes:
         mesh.attributes.remove(mesh.attributes[UV_ATTRIBUTE])
     attribute = mesh.attributes.new(UV_ATTRIBUTE, "FLOAT_VECTOR", "CORNER")

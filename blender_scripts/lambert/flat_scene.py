@@ -56,7 +56,7 @@ def drop_originals(shown):
 
 
 def _dependants(originals):
-    """Those of the originals that something beyond them, or one that is kept, refers to."""
+    """Originals that other data, or a kept original, refers to."""
     users = bpy.data.user_map(subset=originals)
     kept, grown = set(), True
     while grown:

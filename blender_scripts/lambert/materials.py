@@ -1,4 +1,4 @@
-"""Which materials look the same everywhere, which ones emit, and the plain ones that take their place."""
+"""Uniform and emissive materials, and the plain ones that take their place."""
 import bpy
 
 from lambert.notes import MaterialNotes
@@ -49,7 +49,7 @@ class Source:
         self.plain = None
 
     def lost(self):
-        """What is no longer so, for a warning; "" where nothing is."""
+        """Losses against the user's material, for a warning; "" for none."""
         if self.opaque_now:
             return f"is {', '.join(self.opaque_now)}; with --materials lambert it is opaque"
         return "has a volume, which --materials lambert leaves out" if "volume" in self.notes.outside else ""

@@ -22,7 +22,7 @@ class NotCarried(Exception):
 
 
 class MaterialNotes:
-    """Of a material as the user made it; None for an empty slot."""
+    """Notes on a material as the user made it; None for an empty slot."""
 
     def __init__(self, material):
         self.outside = set(describe_material(material)["outside_model"]) if material else set()
@@ -87,7 +87,7 @@ def first_node(socket):
 
 
 def remember_camera(scene):
-    """Before anything else: surveys change the resolution, which decides what a camera sees."""
+    """Note the camera, before surveys change the resolution and with it the field of view."""
     ob = scene.camera if is_plain_camera(scene.camera) else next(filter(is_plain_camera, scene.objects), None)
     why = "no camera is the active one" if scene.camera is None else f"the active one, '{scene.camera.name}', is no plain one"
     note = f"camera '{ob.name}': views look through it, since {why}" if ob != scene.camera and ob else ""

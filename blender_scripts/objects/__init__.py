@@ -1,1 +1,1 @@
-"""Plain objects in place of what a render shows."""
+"""Plain objects in place of instances, curves and the like."""

@@ -1,4 +1,4 @@
-"""What materials may ask of the object or instance that they are on, as custom properties of its stand-in.
+"""Values of objects and instances that materials may read, as custom properties of stand-ins.
 
 Cycles looks up attributes of objects and instancers there; an instance's random number and its coordinates get names of
 ours. The number of other objects comes from their name, which stays.
@@ -13,7 +13,7 @@ RANDOM, GENERATED, UV = "rnmbake random", "rnmbake instancer generated", "rnmbak
 
 
 class InstanceValues:
-    """Of the scene at one moment."""
+    """Values of all instances of the scene as evaluated now."""
 
     def __init__(self):
         self._by_host = attributes_by_host()
@@ -59,7 +59,7 @@ def asks(tree):
 
 
 def answer(tree):
-    """What nodes ask of an instance is read from its stand-in's properties; groups get trees of their own."""
+    """Make a tree's nodes read the instance's values from its stand-in's properties. Groups get trees of their own."""
     for node in list(tree.nodes):
         if node.type == "GROUP" and node.node_tree:
             node.node_tree = node.node_tree.copy()

@@ -1,4 +1,4 @@
-"""Evaluated meshes as meshes of the file, with what a copy would lose."""
+"""Evaluated meshes as meshes of the file, with the normals and texture space that a plain copy loses."""
 from array import array
 
 import bpy
@@ -7,7 +7,7 @@ from scene_ops import texture_space
 
 
 def copy_mesh(ob):
-    """Of an evaluated object; one of the render depsgraph keeps all UV layers."""
+    """Copy the mesh of an evaluated object; in the render depsgraph it keeps all UV layers."""
     mesh = bpy.data.meshes.new_from_object(ob)
     if ob.original.type == "META":  # the field's own
         _keep_normals(mesh, ob.data)

@@ -6,7 +6,7 @@ from objects import shown, stand_ins
 
 
 def targets_as_objects(targets):
-    """One mesh object for each target, in order. Those that can stay as they are do."""
+    """Mesh objects of the targets, in order. Objects that are meshes already stay."""
     copies = realize({target["key"] for target in targets if needs_copy(target)})
     return [copies.get(target["key"]) or bpy.data.objects[target["name"]] for target in targets]
 

@@ -1,4 +1,4 @@
-"""What a render shows, taken out of the dependency graph: meshes, materials, places, and all that Cycles reads beside."""
+"""Surfaces and lights of a render, out of the dependency graph: meshes, materials, matrices, properties for Cycles."""
 import bpy
 
 from objects.instance_values import InstanceValues
@@ -16,8 +16,8 @@ FACELESS = ("LIGHT", "VOLUME", "POINTCLOUD", "CURVES", "HAIR")
 
 
 class Shown:
-    """One thing that a render shows, as an object of its own would have to be. Of an instance Cycles asks now the
-    object, now what places it (`owner`), now both."""
+    """An object or instance of a render, with the properties of an equal plain object. Of an instance Cycles reads some
+    from the object, some from its instancer (`owner`), some from both."""
 
     def __init__(self, instance, name, choices):
         ob, owner = instance.object, (instance.parent if instance.is_instance else None) or instance.object
@@ -37,7 +37,7 @@ class Shown:
         self.values = {}  # objects/instance_values.py
         self.data = None  # a mesh or a light; None for a copy of the original
         self.materials = []
-        self.object = None  # what stands for it
+        self.object = None  # its stand-in
 
 
 def _plain(value):
@@ -45,7 +45,7 @@ def _plain(value):
 
 
 def _seen_by(ob, owner):
-    """By which rays, and whether as a hole. The view layer's own flags on collections hold for what places it."""
+    """Ray visibility and holdout. The view layer's flags on collections count for the instancer."""
     names = [name for name in dir(ob) if name.startswith("visible_") and isinstance(getattr(ob, name), bool)]
     seen = {name: getattr(ob, name) and getattr(owner, name) for name in names}
     layer, placing = bpy.context.view_layer, owner.original

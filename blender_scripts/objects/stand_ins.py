@@ -1,4 +1,4 @@
-"""Plain objects for what a render shows (objects/shown.py): nothing else makes or changes them."""
+"""Plain objects for the items of a render (objects/shown.py): no other module makes or changes them."""
 import bpy
 from mathutils import Matrix
 
@@ -33,7 +33,7 @@ def make(item, name):
 
 
 def _copy(original, name):
-    """Of what has no surface, where nothing moves it."""
+    """Copy an object without a surface, free of parent, constraints and animation."""
     ob = original.copy()
     ob.name, ob.parent, ob.hide_render = name, None, False
     ob.constraints.clear()
@@ -81,7 +81,7 @@ def _answered(material, answered):
 
 
 def place(ob, matrix):
-    """By location, rotation and scale where these can hold the matrix: it may have shear."""
+    """Set the matrix by location, rotation and scale; by a parent where it has shear."""
     ob.matrix_basis = matrix
     error = max(abs(a - b) for row, wanted in zip(ob.matrix_basis, matrix) for a, b in zip(row, wanted))
     if error > 1e-6 * max(1, max(abs(value) for row in matrix for value in row)):
@@ -89,13 +89,13 @@ def place(ob, matrix):
 
 
 def hang(ob, matrix):
-    """By the inverse of a parent's: it may be any matrix, to the last digit."""
+    """Set the matrix as the inverse of a parent's, which holds any matrix exactly."""
     ob.matrix_basis.identity()
     ob.parent, ob.matrix_parent_inverse = _pivot(), matrix
 
 
 def _pivot():
-    """At the origin. One that is there may come from an earlier run, and have been moved."""
+    """Find or make the parent at the origin; one of an earlier run may have been moved."""
     held = bpy.context.scene.collection.objects
     pivot = held.get(PIVOT)
     if pivot is None or pivot.matrix_world != Matrix():

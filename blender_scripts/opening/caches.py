@@ -5,7 +5,7 @@ import bpy
 
 
 def missing_caches():
-    """What a simulation was baked to, or what animates a mesh. An object without it stays in its rest pose."""
+    """Missing files of baked simulations and of mesh animations. Objects without them stay in their rest pose."""
     for cache in bpy.data.cache_files:
         if cache.users and not os.path.exists(bpy.path.abspath(cache.filepath, library=cache.library)):
             yield f"cache file missing: {cache.filepath}"
@@ -17,7 +17,7 @@ def missing_caches():
 
 
 def cache_path(modifier):
-    """Of modifiers that are nothing without the files that it names; "" for all others."""
+    """Path of the files without which the modifier has no effect; "" for other modifiers."""
     if not modifier.show_render:
         return ""
     if modifier.type == "FLUID" and modifier.fluid_type == "DOMAIN":

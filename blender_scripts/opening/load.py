@@ -27,14 +27,14 @@ def open_scene(task):
 
 
 def open_to_measure(task):
-    """The same, for launches that ask what light the scene has; returns what the user should be warned of for that."""
+    """open_scene() for launches that measure the scene's light; returns warnings for the user."""
     open_scene(task)
     untrusted.settle_programs(task, bpy.context.scene)
     return neutralise(bpy.context.scene)
 
 
 def scene_warnings():
-    """What the user should know of the open scene before anything is done with it."""
+    """Warnings about the open scene: losses of its import, missing pictures and caches."""
     scene = bpy.context.scene
     looked_at_before = CAMERA_PROPERTY in scene  # lambert_entry.py made it, and has said what was wrong with the pictures
     return import_notes(scene) + ([] if looked_at_before else [*picture_faults()]) + [*missing_caches()]

@@ -5,7 +5,7 @@ import bpy
 
 
 def picture_faults():
-    """One line for each picture that is not there, or is none that this Blender reads."""
+    """One line for each picture that is missing, or that this Blender cannot read."""
     for image in bpy.data.images:
         if image.source not in ("FILE", "TILED") or not image.users:
             continue
@@ -20,7 +20,7 @@ def picture_faults():
 
 
 def is_readable(image):
-    """Whether Blender can decode it; what that took of memory is given back."""
+    """Whether Blender can decode it; frees the decoded pixels."""
     was_loaded = image.has_data
     readable = 0 not in image.size[:]
     if not was_loaded:

@@ -1,4 +1,4 @@
-"""One picture of what one camera sees, as plain as Cycles can make it."""
+"""One camera's view by Cycles, without filter, denoiser, depth of field and motion blur."""
 import math
 
 import bpy

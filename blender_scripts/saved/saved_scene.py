@@ -31,7 +31,7 @@ class Entry:
 
     @property
     def uvs(self):
-        """The same for entries that can share a mesh."""
+        """Key of the UVs: entries with the same key can share a mesh."""
         return self.uv_array, self.layer
 
     def can_stay(self, instance):
@@ -161,7 +161,7 @@ def leave_scene(objects):
 
 
 def collections_of(ob):
-    """Those of the scene that hold it and can be changed."""
+    """Collections of the scene that hold it and are not linked from a library."""
     scene = bpy.context.scene
     return [collection for collection in (scene.collection, *scene.collection.children_recursive)
             if not collection.library and any(held == ob for held in collection.objects)]

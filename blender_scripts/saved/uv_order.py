@@ -21,7 +21,7 @@ def put_second(mesh, name):
 
 
 def _arrange(layers, order):
-    """By taking each away and adding it again at the end: Blender has no other way."""
+    """Reorder the layers: remove each and add it at the end, for Blender has no other way."""
     active, render = layers.active.name, next(layer.name for layer in layers if layer.active_render)
     for name in order:
         uv = read(layers[name])

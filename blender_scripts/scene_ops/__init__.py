@@ -1,1 +1,1 @@
-"""What the folders with bpy share."""
+"""Shared operations of the folders with bpy."""

@@ -9,7 +9,7 @@ from scene_ops.neutral import set_if_there
 LAYERS = 128  # see-through surfaces that a ray may cross; beyond Cycles takes them for opaque
 
 
-# What scene.cycles says of light and not of its pictures. All else there is put back to Cycles' own defaults.
+# Properties of scene.cycles that change light. All others are reset to Cycles' defaults.
 FOLLOWED = {"caustics_reflective", "caustics_refractive", "volume_bounces", "volume_step_rate", "volume_max_steps",
             "volume_unbiased", "volume_biased", "transparent_max_bounces", "shading_system"}
 
@@ -90,7 +90,7 @@ def bake_diffuse(scene, target, clear=True):
 
 
 def samples_of_picture(scene, width, height):
-    """All that Cycles takes of one picture, for task.progress: it works on one tile of a large one after another."""
+    """Samples of one picture, over all of its tiles, for task.progress: Cycles counts them tile by tile."""
     cycles = scene.cycles
     side = cycles.tile_size if cycles.use_auto_tile else max(width, height)
     return cycles.samples * math.ceil(width / side) * math.ceil(height / side)

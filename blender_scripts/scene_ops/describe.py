@@ -1,4 +1,4 @@
-"""What materials, lights and worlds are made of, and what in them a diffuse + emission tracer cannot follow."""
+"""Contents of materials, lights and worlds, and those of their parts that a diffuse + emission tracer cannot follow."""
 from scene_ops import light_paths
 from scene_ops.describe_nodes import active_output, constant, is_zero, reachable_nodes, tree_source
 from scene_ops.see_through import casts_opaque_shadow, has_transparency, lets_light_through
@@ -117,7 +117,7 @@ def bends_normals(node):
                for name in ("Normal", "Clearcoat Normal", "Coat Normal"))
 
 
-# What says how large a lamp is, how it spreads its light and what its energy counts.
+# Properties of a lamp's size, spread and unit of energy.
 LIGHT_SIZES = ("angle", "shadow_soft_size", "spot_size", "spot_blend", "size", "size_y", "spread", "use_soft_falloff",
                "normalize")
 

@@ -67,7 +67,7 @@ def _refuse_what_cannot_be_reshaped(ob, material, makers):
 
 
 def _displaced(stand, ob, mesh):
-    """Where Cycles puts the vertices, in the object's own space."""
+    """Positions of the vertices as displaced by Cycles, object space."""
     colors = mesh.color_attributes.new(ATTRIBUTE, "FLOAT_COLOR", "CORNER")
     mesh.color_attributes.active_color = colors
     stand.scene.cycles.samples = 1  # Cycles adds positions up
@@ -104,7 +104,7 @@ def _bare(ob, mesh):
 
 
 def _reshape(ob, mesh, places):
-    """By a shape key: texture coordinates go on as on the shape before."""
+    """Move the vertices by a shape key, which keeps generated texture coordinates."""
     ob.shape_key_add(name="rnmbake as modelled", from_mix=False)
     key = ob.shape_key_add(name="rnmbake displaced", from_mix=False)
     key.data.foreach_set("co", places)

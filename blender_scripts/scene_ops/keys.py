@@ -1,7 +1,7 @@
-"""What a render shows, and names for it: the same in every launch, since the order of a depsgraph is."""
+"""Objects and instances of a render, with keys: the same in every launch, as the order of a depsgraph is."""
 import bpy
 
-NO_ID = 0x7fffffff  # what Blender fills persistent_id up with
+NO_ID = 0x7fffffff  # Blender's padding of persistent_id
 
 # On objects that stand for a surface of the user's scene (stand_ins.py): its key and name there.
 KEY_PROPERTY, NAME_PROPERTY = "rnmbake key", "rnmbake name"

@@ -11,7 +11,7 @@ ROLES = ("receiver_collection", "blocker_collection")
 
 
 class Choices:
-    """Which collections the lights choose by, and what is in each, at one moment."""
+    """Collections of light linking, with their members, as evaluated now."""
 
     def __init__(self):
         self._states = {role: [(collection, _states_in(collection)) for collection in _collections(role)]
@@ -24,7 +24,7 @@ class Choices:
         return (owner and holding(owner)) or holding(ob)
 
     def light_group(self, ob, owner=None):
-        """The same text for what the same lights light by choice; "" where no light chooses. join_group() reads it."""
+        """Key of the lights that are linked to an object, the same for equal sets; "" for none. join_group() reads it."""
         found = [[collection.name_full, state] for collection, state in self.memberships(ROLES[0], ob, owner)]
         return json.dumps(found) if found else ""
 
@@ -71,6 +71,6 @@ def block(ob):
 
 
 def leaves_out(collection):
-    """Whether it concerns nothing but what it includes."""
+    """Whether it excludes all objects but those that it includes."""
     return any(entry.light_linking.link_state == "INCLUDE"
                for entry in [*collection.collection_objects, *collection.collection_children])

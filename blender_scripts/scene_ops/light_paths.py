@@ -11,7 +11,8 @@ IS_SHADOW = "Is Shadow Ray"
 
 
 def unsure(nodes, transparent):
-    """Whether some of the nodes ask more than what is sure. `transparent`: shadow rays are asked for their way on."""
+    """Whether a node reads a Light Path output whose value is not known here. `transparent`: of transmittance, for which
+    shadow rays count, too, so that Is Shadow Ray is not known either."""
     sure = SURE if transparent else SURE | {IS_SHADOW}
     return any(node.type == "LIGHT_PATH" and any(out.is_linked and out.name not in sure for out in node.outputs)
                for node in nodes)

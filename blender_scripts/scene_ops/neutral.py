@@ -8,11 +8,11 @@ import bpy
 from scene_ops import override
 from scene_ops.describe import describe_material
 
-SENT_ON = {"glossy", "metallic", "coat", "glass", "transmission"}  # what caustics are made of
+SENT_ON = {"glossy", "metallic", "coat", "glass", "transmission"}  # closures that make caustics
 
 
 def neutralise(scene):
-    """Before anything is evaluated. Returns what the user should be told, a line each."""
+    """Make the scene neutral before its first evaluation. Returns warnings, a line each."""
     layer = bpy.context.view_layer
     told = [*override.take_over(layer), *follow_layer(scene, layer), *name_caustics(scene), *name_colors()]
     told += leave_dicing_out(scene)
@@ -48,7 +48,7 @@ def name_caustics(scene):
 
 
 def name_colors():
-    """From 5.0 on a file says what its red, green and blue are."""
+    """Warning about a working space other than Rec.709, which files have from 5.0 on."""
     space = getattr(getattr(bpy.data, "colorspace", None), "working_space", "")
     if space and space != "Linear Rec.709":
         yield f"the scene works in {space}: lightmaps and reference hold red, green and blue of that space"

@@ -1,7 +1,7 @@
 """Materials of one Diffuse BSDF."""
 import bpy
 
-NO_MATERIAL = (0.8, 0.8, 0.8)  # what Cycles shows where there is none
+NO_MATERIAL = (0.8, 0.8, 0.8)  # colour of Cycles for slots without a material
 
 
 def new_diffuse(name, color):
@@ -28,7 +28,7 @@ def make_clear(material):
 
 
 def empty_tree(owner):
-    """Of a material or world. Blender 5 makes a tree by itself and warns about use_nodes."""
+    """Empty the node tree of a material or world. Blender 5 makes a tree by itself and warns about use_nodes."""
     if not owner.use_nodes:
         owner.use_nodes = True
     owner.node_tree.nodes.clear()

@@ -1,4 +1,4 @@
-"""What a final render would show.
+"""The dependency graph of a final render.
 
 Render visibility, render levels of modifiers and the instances of a final render exist only in the
 dependency graph that Blender builds for a render engine. So a survey is a render engine: one tiny render

@@ -9,7 +9,7 @@ from scene_ops.describe_nodes import active_output, constant, is_zero, reachable
 
 
 def lets_light_through(material):
-    """Where what it lets through depends on the kind of ray it is opaque here: no single number tells."""
+    """Whether it transmits light. Materials whose transmittance depends on the kind of ray count as opaque."""
     if is_volume_alone(material):
         return True
     nodes = surface_nodes(material)
@@ -23,7 +23,7 @@ def is_volume_alone(material):
 
 
 def has_transparency(material):
-    """For any ray at all."""
+    """Whether it is transparent to some kind of ray."""
     return any(is_transparent(node) for node in surface_nodes(material))
 
 

@@ -2,6 +2,6 @@
 
 
 def keep(mesh, source):
-    """What stands for `source` has the box of that, whatever its own shape."""
+    """Give a stand-in's mesh the texture space of `source`, whatever its own shape."""
     mesh.use_auto_texspace = False
     mesh.texspace_location, mesh.texspace_size = source.texspace_location, source.texspace_size

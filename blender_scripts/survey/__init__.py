@@ -1,1 +1,1 @@
-"""What a render would show, as data."""
+"""The scene survey."""

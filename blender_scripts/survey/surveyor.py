@@ -1,4 +1,4 @@
-"""What Blender would render, as plain data: docs/survey-format.md."""
+"""The scene of a render as plain data: docs/survey-format.md."""
 import json
 import math
 import sys
