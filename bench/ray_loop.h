@@ -30,7 +30,7 @@ class RayLoop {
   /// The same of the square that texel (x, y) lies in.
   void trace_square(int x, int y, const HemisphereRays& rays, Packet packet, SsbumpWeights& weights) const;
 
-  /// Of a single texel, for many rays.
+  /// Weights of a single texel, for many rays.
   [[nodiscard]] std::array<double, SsbumpWeights::channels> texel(int x, int y,
                                                                   const std::vector<WeightedRay>& rays) const;
 

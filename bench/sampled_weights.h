@@ -25,11 +25,11 @@ struct Texel {
 
 [[nodiscard]] std::vector<Channels> picked(const SsbumpWeights& weights, const std::vector<Texel>& texels);
 
-/// By rays into the bilinear surface.
+/// Weights by rays into the bilinear surface.
 [[nodiscard]] std::vector<Channels> by_rays(const HeightField& field, const std::vector<Texel>& texels,
                                             const std::vector<WeightedRay>& rays);
 
-/// By exact horizons in some azimuths.
+/// Weights by exact horizons in some azimuths.
 [[nodiscard]] std::vector<Channels> by_horizons(const HeightField& field, const std::vector<Texel>& texels,
                                                 int azimuths);
 

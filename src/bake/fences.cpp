@@ -34,8 +34,8 @@ LightBall ball_of(const LightInfo& light) {
   return {false, row(light.to_world, 3), std::max((u + v).length(), (u - v).length())};
 }
 
-/// How far Cycles may move a ray's start off a surface where it runs along it: by 1e-5, and from 1 on by up
-/// to 256 float steps of each coordinate. World units along `normal`.
+/// Greatest offset of a ray's start in Cycles, for rays along a surface: by 1e-5, and from 1 on by up to 256
+/// float steps of each coordinate. World units along `normal`.
 double start_offset(const Vec3& place, const Vec3& normal) {
   double sum = 0;
   for (int a = 0; a < 3; ++a) {

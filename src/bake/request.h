@@ -14,7 +14,7 @@
 
 namespace rnmbake {
 
-/// Where each atlas rectangle of a batch was put: which picture, and at which texel.
+/// Placement of each atlas rectangle of a batch: picture and texel.
 struct BatchLayout {
   std::vector<std::size_t> rects;  // indices into Plan::rects
   AtlasPlan atlas;                 // placements in the order of `rects`

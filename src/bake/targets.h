@@ -15,7 +15,7 @@
 
 namespace rnmbake {
 
-/// Which layer holds the lightmap. `layer` is empty where the object has to be unwrapped; `reason` says why.
+/// Layer of the lightmap; empty where the object has to be unwrapped, for `reason`.
 struct UvChoice {
   std::optional<int> layer;
   std::string reason;

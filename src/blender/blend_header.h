@@ -1,4 +1,4 @@
-// blender/blend_header.h - which Blender saved a .blend, read from its first bytes.
+// blender/blend_header.h - version of the Blender that saved a .blend, read from its first bytes.
 #pragma once
 
 #include "blender/blender_info.h"
@@ -14,8 +14,8 @@ struct BlendHeader {
   int major = 0, minor = 0;
 };
 
-/// Of plain and compressed files (zstd; gzip before 3.0); nullopt where they do not begin as a .blend does.
-/// Throws Error(io) where the file cannot be read.
+/// Version of a plain or compressed file (zstd; gzip before 3.0); nullopt where it does not begin as a .blend
+/// does. Throws Error(io) where the file cannot be read.
 [[nodiscard]] std::optional<BlendHeader> read_blend_header(const std::filesystem::path& file);
 
 /// Reason why this Blender cannot read the file, with the remedy; empty where it may.

@@ -14,8 +14,8 @@
 
 namespace rnmbake {
 
-/// What to run. `folder` is private to the launch and must exist: request.json, result.json, progress.jsonl,
-/// stdout.log, tmp/ and home/ are made in it.
+/// Script, scene and request of a launch. `folder` is private to the launch and must exist: request.json,
+/// result.json, progress.jsonl, stdout.log, tmp/ and home/ are made in it.
 struct Launch {
   std::string entry;               // file name in the scripts folder: "bake_entry.py"
   std::optional<BlendPath> scene;  // to open; none: factory start-up

@@ -12,8 +12,8 @@ namespace rnmbake {
 /// Error(environment) if that is no Blender, one older than oldest_blender, or it does not answer.
 BlenderInfo probe_version(const std::filesystem::path& executable);
 
-/// From the output of --version, whatever else it holds; fills version, version_text and build.
-/// False: no Blender printed that.
+/// Fills version, version_text and build from the output of --version, which may hold other lines. False: no
+/// Blender printed that.
 bool parse_version(std::string_view output, BlenderInfo& info);
 
 }  // namespace rnmbake

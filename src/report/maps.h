@@ -18,8 +18,8 @@ namespace rnmbake {
 /// for nothing; a block of nothing but NaN is NaN.
 [[nodiscard]] FloatImage shrink(const FloatImage& image, int limit);
 
-/// What the report shows of one basis: values (means where there are two halves) and standard errors, NaN
-/// where a mask of `counted` says no, scaled down to `limit`.
+/// Maps of one basis for the report: values (means where there are two halves) and standard errors, NaN
+/// outside of a mask of `counted`, scaled down to `limit`.
 [[nodiscard]] BasisMaps make_maps(const std::string& basis, const ComparedPicture& candidate,
                                   const ComparedPicture& reference, const std::vector<CountedWhere>& counted,
                                   int limit);

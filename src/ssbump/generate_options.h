@@ -1,4 +1,4 @@
-// ssbump/generate_options.h - how the weights of a height field are found.
+// ssbump/generate_options.h - options of the methods that compute a height field's weights.
 #pragma once
 
 #include "image/float_image.h"

@@ -49,7 +49,7 @@ std::vector<ChannelStats> stats_of(const SsbumpPicture& picture) {
   return all;
 }
 
-/// How far bent normals lean from the surface, mean and most, in degrees.
+/// Angles of bent normals to the surface's, mean and largest, degrees.
 std::pair<double, double> tilt_of(const FloatImage& weights) {
   const FloatImage normals = bent_normals(weights);
   double sum = 0, most = 0;

@@ -1,4 +1,4 @@
-// pipeline/bake/memory.h - how large an atlas may be on this machine.
+// pipeline/bake/memory.h - limits of memory and of atlas pixels on this machine.
 #pragma once
 
 #include "bake/request.h"

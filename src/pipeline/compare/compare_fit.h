@@ -1,4 +1,4 @@
-// pipeline/compare/compare_fit.h - whether the numbers of two lightmaps mean the same.
+// pipeline/compare/compare_fit.h - checks that two lightmaps have the same encoding and units.
 #pragma once
 
 #include "pipeline/lightmaps/lightmap_folder.h"

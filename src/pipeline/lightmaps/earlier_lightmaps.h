@@ -26,7 +26,7 @@ struct EarlierLightmaps {
   std::vector<EarlierLightmap> kept;
   std::string scene_with_uvs;  // name in the folder, "" if there is none
 
-  /// What its files are called before their endings.
+  /// Stem of its files' names.
   [[nodiscard]] std::vector<std::string> stems() const;
 
   /// `of_targets` and the unwrapped UVs of these lightmaps, all of which the saved scene has to hold.

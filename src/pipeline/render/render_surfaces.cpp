@@ -29,7 +29,7 @@ FloatImage image_of(const Texture& picture) {
   return image;
 }
 
-/// How strong a normal map is, as Blender's Normal Map node has it.
+/// Strength of a normal map, as in Blender's Normal Map node.
 Vec3 with_strength(const Vec3& normal, float strength) {
   const float share = std::clamp(strength, 0.0F, 1.0F);
   return {normal.x * strength, normal.y * strength, 1 + (normal.z - 1) * share};

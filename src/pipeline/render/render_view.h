@@ -11,7 +11,7 @@
 
 namespace rnmbake {
 
-/// How surfaces are lit.
+/// Lighting of the surfaces.
 struct Lighting {
   enum class Kind {
     decoded,  // albedo x decoded lightmap; surfaces without one are traced

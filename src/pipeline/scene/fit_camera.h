@@ -11,9 +11,9 @@
 
 namespace rnmbake {
 
-/// From the right of the front and above (Blender's front is -y), so that the box round all targets, along
-/// the axes, just fits into a picture of that size in pixels. It stands outside of that box: of a closed room
-/// it shows the walls' outsides.
+/// Camera to the right of the front and above (Blender's front is -y), so that the axis-aligned box of all
+/// targets just fits into a picture of that size in pixels. It stands outside of that box, so it shows closed
+/// rooms from outside.
 [[nodiscard]] Camera fit_camera(const SceneSurvey& survey, const std::vector<Target>& targets,
                                 std::pair<int, int> size);
 

@@ -13,7 +13,7 @@
 
 namespace rnmbake {
 
-/// Where the saved scene has an object's lightmap.
+/// Object and layer of a lightmap in the saved scene.
 struct SavedPlace {
   std::string object;  // name in that scene
   int uv_index = -1;   // of the lightmap's layer

@@ -11,7 +11,7 @@
 namespace rnmbake {
 namespace {
 
-/// Of each colour channel.
+/// Minimum over the three maps, for each colour channel.
 Vec3 least(const std::array<Vec3, 3>& maps) {
   const auto of = [&](int c) { return std::min({maps[0][c], maps[1][c], maps[2][c]}); };
   return {of(0), of(1), of(2)};

@@ -28,8 +28,8 @@ struct DecomposeInput {
   std::optional<Halves> own_recipe, own_receiver;
 };
 
-/// Of the whole scene and then of each object that all folders have. With R the recipe's bake, C the
-/// receiver's, T the truth, E_k what was traced with the first k faults, and a dash for own materials:
+/// Decompositions of the whole scene and then of each object that all folders have. With R the recipe's bake,
+/// C the receiver's, T the truth, E_k what was traced with the first k faults, and a dash for own materials:
 ///     R' - T = sum (E_k - E_k-1)  one row for each cause
 ///            + (R' - C') - (R - C)  "non-Lambertian diffuse": own materials as the recipe alone sees them
 ///            + C' - C              "model difference": light that the reference's model does not carry

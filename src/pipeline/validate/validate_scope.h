@@ -22,7 +22,7 @@ namespace rnmbake {
 /// after so many bounces.
 [[nodiscard]] bool bounces_matter(const DiffuseScene& scene, int bounces);
 
-/// From folders with the truth traced with and without a limit of bounces.
+/// Loss by the limit of bounces, from folders with the truth traced with and without it.
 [[nodiscard]] BounceLimit bounce_limit(int bounces, const std::filesystem::path& with,
                                        const std::filesystem::path& without);
 

@@ -11,7 +11,7 @@
 
 namespace rnmbake {
 
-/// What all variants of one scene share.
+/// Input that all variants of one scene share.
 struct VariantBase {
   const BlenderSession& session;
   const ExportResult& exported;

@@ -129,7 +129,7 @@ function studyChart(points, value, write, label) {
     svg('text', {x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'}, 'bake targets'));
 }
 
-// How many values fall into each of `bins` parts of [low, high]; what is beyond counts at the ends.
+// Counts of values in each of `bins` parts of [low, high]; values beyond count at the ends.
 function binned(values, low, high, bins) {
   const counts = new Float64Array(bins);
   for (const value of values) {

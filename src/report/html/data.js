@@ -1,4 +1,4 @@
-// data.js - what the page carries: the numbers, and pictures that are unpacked when they are looked at.
+// data.js - data of the page: the numbers, and pictures that are unpacked when they are shown.
 'use strict';
 
 const report = JSON.parse(document.getElementById('report').textContent);

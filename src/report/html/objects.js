@@ -2,7 +2,7 @@
 
 const worstBasis = '';  // the choice "worst basis"
 
-// What a row shows of its object: the basis chosen, or the one with the largest relative RMSE.
+// Basis in an object's row: the chosen one, or the one with the largest relative RMSE.
 function metricsOf(object, basis) {
   if (basis !== worstBasis) return object.bases.find(one => one.basis === basis) || null;
   const size = one => known(one.relative_rmse.value) ? one.relative_rmse.value : -1;
@@ -188,7 +188,7 @@ function remarks(object) {
   return lines.length ? el('ul', {class: 'remarks'}, lines.map(line => el('li', {}, line))) : null;
 }
 
-// What opens under a row: built when it is opened.
+// Details under a row, built when the user opens it.
 function objectDetail(object, index) {
   const maps = pictures.objects[index], stage = el('div', {class: 'stage-of-basis'});
   const show = async basis => {

@@ -2,7 +2,7 @@
 
 const scales = [0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2];
 
-// How everything is shown. `changed` tells the viewers that are open.
+// Display settings of all viewers. `changed` updates the open ones.
 const look = {
   exposure: 0,
   scale: 0.1,

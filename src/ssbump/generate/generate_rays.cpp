@@ -15,7 +15,7 @@ namespace {
 
 constexpr float cone_cosine = 0.5F;  // half of 120 degrees
 
-/// What a ray counts for in each cone: all directions within one count the same. Ambient is no cone.
+/// Weight of a ray in each cone: the same for all directions within it. Ambient is no cone.
 SsbumpChannels in_cones(const WeightedRay& ray) {
   const auto basis = rnm_basis();
   SsbumpChannels weight{};

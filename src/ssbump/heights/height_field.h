@@ -7,8 +7,8 @@
 
 namespace rnmbake {
 
-/// What lies beyond a border, for each axis: the map again, the map mirrored (with the border's texels
-/// twice), or nothing new: the border's heights go on.
+/// Heights beyond a border, for each axis: the map again, the map mirrored (with the border's texels twice),
+/// or the border's heights, which go on.
 enum class WrapMode : std::uint8_t { wrap, mirror, none };
 
 /// The row or column, of `size`, whose heights lie at `i`, which may be any distance beyond a border.

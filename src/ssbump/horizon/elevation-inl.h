@@ -30,16 +30,16 @@ HWY_INLINE V inverse_root(D d, V x) {
 #endif
 }
 
-/// Of a horizon's elevation e, the two integrals over the elevations from e to the zenith that every lobe of
-/// power 1 is made of:
+/// Two integrals over the elevations from a horizon's e to the zenith, of which every lobe of power 1 is a
+/// sum:
 ///     along = 2 * integral of cos^2 = pi/2 - e - sin e cos e,   up = 2 * integral of sin cos = cos^2 e.
 template <class V>
 struct Elevation {
   V along, up;
 };
 
-/// Of sines in [0, 1], to 4e-7: `along` is (1 - sine)^(3/2) times a polynomial that was fitted at Chebyshev's
-/// points.
+/// Elevation integrals of sines in [0, 1], to 4e-7: `along` is (1 - sine)^(3/2) times a polynomial that was
+/// fitted at Chebyshev's points.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Elevation<V> look_above(D d, V sine) {
   const V rest = hn::Sub(hn::Set(d, 1.0F), sine);

@@ -20,9 +20,10 @@ namespace {
 constexpr int least_period = 128;   // fewer steps hold too few slopes of lines that run into themselves
 constexpr std::size_t block = 32;   // side of the squares that are transposed at once
 constexpr int fixed_near_rows = 8;  // where --azimuths is given
-// Where the surface is even, all error is that of the sum over azimuths, at those where its slope leaves the
-// horizon: along rows, columns and diagonals sums from a quarter on are by far the best (Euler and
-// Maclaurin), and two halves of such a sum err to opposite sides.
+// Offset of the first azimuth, as share of their distance. On planes all error is that of the sum over
+// azimuths, which has kinks where the plane's slope leaves the horizon. With kinks along rows, columns and
+// diagonals a quarter is by far the best offset (Euler and Maclaurin), and two halves of the sum err to
+// opposite sides.
 constexpr double best_offset = 0.25;
 constexpr std::array<AzimuthOptions, 5> doubling_sets{{
     {.azimuths = 32, .offset = best_offset / 2, .near_rows = 8},

@@ -108,7 +108,8 @@ Azimuth make_azimuth(const HorizonGrid& grid, double slope, int near_rows) {
   return azimuth;
 }
 
-/// By columns the first way leads along the row (x rises), by rows up the picture's rows (y falls).
+/// Adds both directions of each azimuth. By columns the first leads along the row (x rises), by rows up the
+/// picture's rows (y falls).
 void add_spokes(std::vector<Spoke>& spokes, std::vector<Azimuth>& set, bool by_columns) {
   for (Azimuth& azimuth : set) {
     const double slope = azimuth.slope, length = std::sqrt(1 + slope * slope);

@@ -20,7 +20,7 @@ struct AzimuthLobes {
     float begins = 0, at_most = 0;  // below this sine the lobe is 0: there it counts for so much
   };
   std::array<Linear, SsbumpWeights::channels> linear;
-  /// By the sine of the horizon, for powers other than 1: channels 0 to 3, table_steps + 2 entries each.
+  /// Table by the horizon's sine, for powers other than 1: channels 0 to 3, table_steps + 2 entries each.
   std::vector<float> table;
 };
 

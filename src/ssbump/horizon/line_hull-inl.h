@@ -86,7 +86,7 @@ class LineBlock {
       }
       if (hn::AllTrue(d_, hn::And(hn::Lt(slope, before), hn::Lt(eye_slope, eye_before)))) break;
     }
-    // What is nearer than the tangent's point is under the line to that.
+    // Points nearer than the tangent's are under the line to it.
     hull.keep(hn::GetLane(hn::MinOfLanes(steps, tangent_at)) + 1);
     to_farther = hn::Max(to_farther, tangent);
   }

@@ -7,9 +7,10 @@
 
 namespace rnmbake {
 
-/// Of the same map before and after. Diffuse: over lights of one strength from all over the upper hemisphere,
-/// E = sum of s_i LM_i with LM_i = sat(l . B_i); errors are shares of the RMS of what an open flat surface
-/// receives. Angles: of the bent normal, in degrees; a reflection about it is off by twice as much.
+/// Errors of a map after compression. Diffuse: over lights of one strength from all over the upper
+/// hemisphere, E = sum of s_i LM_i with LM_i = sat(l . B_i); errors are shares of the RMS of what an open
+/// flat surface receives. Angles: of the bent normal, in degrees; a reflection about it is off by twice as
+/// much.
 struct CompressionError {
   double diffuse_rms = 0, diffuse_bias = 0, diffuse_max = 0;  // max: the worst texel, RMS over lights
   double angle_mean = 0, angle_p95 = 0, angle_max = 0;        // texels whose weights are all 0 have no normal

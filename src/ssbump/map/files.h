@@ -43,10 +43,10 @@ class SsbumpFile {
   /// `weights` is the picture from `first_row` on.
   void write(int first_row, const FloatImage& weights);
 
-  /// The file appears. Nothing is left behind without it.
+  /// Puts the file in place. Without this call no file is left.
   void commit() { writer_.commit(); }
 
-  /// Of the five channels, over the rows so far.
+  /// Ranges of the five channels over the rows so far.
   [[nodiscard]] std::vector<WeightRange> ranges() const;
 
  private:

@@ -17,8 +17,8 @@ namespace rnmbake {
 /// 1/sqrt 3; mod2x: half of that, doubled by the shader.
 enum class SsbumpScale : std::uint8_t { third, ndotb, mod2x };
 
-/// Which way y points: right-handed up (OpenGL, Blender), left-handed down (Direct3D, Source). The channels
-/// keep their axes, so that left is right with channels 2 and 3 swapped.
+/// Direction of y: right-handed up (OpenGL, Blender), left-handed down (Direct3D, Source). The channels keep
+/// their axes, so that left is right with channels 2 and 3 swapped.
 enum class Handed : std::uint8_t { right, left };
 
 /// The fourth channel. Both are 1 in the open, whatever the scale.
@@ -35,12 +35,12 @@ enum class SsbumpAlpha : std::uint8_t { none, up, ao };
 [[nodiscard]] std::optional<SsbumpAlpha> alpha_named(const std::string& name);
 
 struct SsbumpMetadata {
-  // What the numbers mean.
+  // Encoding.
   SsbumpScale scale = SsbumpScale::third;
   Handed handed = Handed::right;
   SsbumpAlpha alpha = SsbumpAlpha::none;
   double power = 1;
-  // Where they come from: "horizon", "normal map", ... and its settings in words.
+  // Origin: "horizon", "normal map", ... and its settings in words.
   std::string method, settings;
 };
 

@@ -13,7 +13,7 @@ struct Share {
   float weight = 0;
 };
 
-/// Which of `count` texels make up each of the smaller number, by overlap; weights sum to 1.
+/// Texels of `count` under each texel of the smaller number, weighted by overlap; weights sum to 1.
 std::vector<std::vector<Share>> shares(int count) {
   const int smaller = std::max(1, count / 2);
   const double width = static_cast<double>(count) / smaller;

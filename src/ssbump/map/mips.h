@@ -10,7 +10,7 @@ namespace rnmbake {
 /// and lights another slope.
 [[nodiscard]] FloatImage half_size(const FloatImage& image);
 
-/// How many halvings there are down to one texel.
+/// Number of halvings down to one texel.
 [[nodiscard]] int mip_levels(int width, int height);
 
 }  // namespace rnmbake

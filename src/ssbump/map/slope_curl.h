@@ -1,4 +1,4 @@
-// ssbump/map/slope_curl.h - whether a normal map can belong to a surface at all: the curl of its slopes.
+// ssbump/map/slope_curl.h - curl of a normal map's slopes, which is 0 for every surface.
 #pragma once
 
 #include "image/float_image.h"

@@ -13,7 +13,7 @@ namespace {
 struct Rows {
   int first, count, of;
 
-  /// From the whole picture's v to the band's.
+  /// Maps v of the whole picture to the band's.
   [[nodiscard]] float v(float whole) const {
     return static_cast<float>((double{whole} * of - (of - first - count)) / count);
   }
@@ -34,7 +34,7 @@ struct Owner {
   std::size_t surface = 0;
 };
 
-/// Where a frame has no direction of its own any is as good.
+/// Any unit vector across the normal, for frames without a tangent.
 Vec3 any_across(const Vec3& normal) {
   const Vec3 axis = std::abs(normal.x) < 0.5F ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   return unit(axis - normal * axis.dot(normal));
