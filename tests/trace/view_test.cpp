@@ -104,8 +104,9 @@ TEST(View, CountsTheShareOfSurfaceAndShowsTheWorldElsewhere) {
   expect_near(colour(view.albedo, 2, 2), Vec3(0.5F, 0.25F, 0));
   EXPECT_EQ(view.coverage.texel(0, 0)[0], 0);
   expect_near(colour(view.beauty, 0, 0), Vec3(0, 0, 7));
-  // 256 places of a (0,2)-sequence fill the halves of a pixel evenly, but for rounding at the edge.
-  EXPECT_NEAR(view.coverage.texel(1, 2)[0], 0.5F, 0.01F);
+  // Of 256 places of a (0,2)-sequence one lies in each of as many strips of a pixel: rounding at the edge
+  // takes one at most.
+  EXPECT_NEAR(view.coverage.texel(1, 2)[0], 0.5, 1.0 / 256);
   expect_near(colour(view.albedo, 1, 2), Vec3(0.5F, 0.25F, 0) * view.coverage.texel(1, 2)[0]);
 }
 
