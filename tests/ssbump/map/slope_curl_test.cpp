@@ -67,9 +67,11 @@ TEST(SlopeCurl, SlopesThatHaveNothingToDoWithEachOther) {
   const FloatImage normals =
       normals_of_slopes(side, side, [&](int, int) { return std::pair(slope(random), slope(random)); });
   const SlopeCurl curl = slope_curl(normals, {});
-  // Each mean square is of 65,536 values of which about half are independent: 1.5 % at 4 standard errors.
-  EXPECT_NEAR(curl.relative, 1, 0.03);
-  EXPECT_NEAR(curl.rms, 0.2, 0.006);
+  // The square of a normal number has the relative variance 2, and each of four neighbours two texels away
+  // correlates by -1/4: the sum of squared correlations is 5/4. A root has half the relative error.
+  const double error = 0.5 * std::sqrt(2 * 1.25) / side;
+  EXPECT_NEAR(curl.rms, 0.2, 0.2 * 4.5 * error);
+  EXPECT_NEAR(curl.relative, 1, 4.5 * std::sqrt(2.0) * error);  // two such means
 }
 
 TEST(SlopeCurl, NamesTheWorstTexel) {
