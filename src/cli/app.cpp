@@ -7,6 +7,7 @@
 #include "blender/blender_session.h"
 #include "cli/bake.h"
 #include "cli/compare.h"
+#include "cli/convert.h"
 #include "cli/decode.h"
 #include "cli/doctor.h"
 #include "cli/export.h"
@@ -16,6 +17,7 @@
 #include "cli/render.h"
 #include "cli/ssbump/nms.h"
 #include "cli/ssbump/ssbump.h"
+#include "cli/study.h"
 #include "cli/validate.h"
 #include "config/variables.h"
 
@@ -92,6 +94,15 @@ constexpr const char* about_compare =
     "minus B, over the texels that both cover; known noise is taken out, and every mean has its 95 %\n"
     "confidence interval. Exit code 7 says that a limit of --fail-above was exceeded.";
 
+constexpr const char* about_convert =
+    "\n\nOne bake feeds every encoding: LIGHTMAPS is a folder that `rnmbake bake` wrote, or one lightmap, "
+    "and -o "
+    "gets\n"
+    "the same light in the layers that another decoder expects. `rnmbake decode` and `rnmbake render` read "
+    "them "
+    "by\n"
+    "their headers; docs/convert.md says which encoding loses what.";
+
 constexpr const char* about_ssbump =
     "\n\nStores, for each texel of a height map, how much of the light along each of the three axes of the\n"
     "Half-Life 2 basis arrives past the heights around it. A shader then needs no normal map: light is the\n"
@@ -130,6 +141,8 @@ const std::vector<Command>& commands() {
       {"render", add_render_command, about_render},
       {"doctor", add_doctor_command},
       {"decode", add_decode_command},
+      {"convert", add_convert_command, about_convert},
+      {"study", add_study_command},
       {"ssbump", add_ssbump_command, about_ssbump},
       {"nms", add_nms_command, about_nms},
   };

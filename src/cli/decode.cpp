@@ -26,14 +26,15 @@ namespace {
 struct DecodeOptions {
   std::filesystem::path lightmap, normal_map, ssbump, output;
   std::string ssbump_scale, ssbump_handed;
-  std::vector<float> normal_vector;               // three numbers, unless there is a normal map
-  std::string variant = "squared", normal_green;  // no green: not said, taken as y-up
+  std::vector<float> normal_vector;   // three numbers, unless there is a normal map
+  std::string variant, normal_green;  // "": by the lightmap's header; y-up
   bool flip_green = false, force = false;
   float exposure = 0;
 };
 
 DecodeVariant variant_of(const DecodeOptions& options) {
-  for (const auto variant : {DecodeVariant::linear, DecodeVariant::vrad, DecodeVariant::single})
+  for (const auto variant :
+       {DecodeVariant::linear, DecodeVariant::vrad, DecodeVariant::single, DecodeVariant::encoded})
     if (options.variant == name_of(variant)) return variant;
   return DecodeVariant::squared;
 }
@@ -44,7 +45,7 @@ Green green_of(const DecodeOptions& options) {
 
 [[noreturn]] void refuse(const DecodeOptions& options, const std::string& why, const std::string& remedy) {
   fail(ExitCode::unsupported, "{} does not fit the {} decode: {}; {}", options.lightmap.string(),
-       options.variant, why, remedy);
+       name_of(variant_of(options)), why, remedy);
 }
 
 /// Metadata that rnmbake writes by default, in place of an unusable header.
@@ -134,7 +135,8 @@ void check_options(DecodeOptions& options) {
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", options.output.string());
   }
   if (options.normal_map.empty() && options.ssbump.empty()) check_vector(options.normal_vector);
-  const bool fits_ssbump = options.variant == "squared" || options.variant == "vrad";
+  const bool fits_ssbump =
+      options.variant.empty() || options.variant == "squared" || options.variant == "vrad";
   if (!options.ssbump.empty() && !fits_ssbump) {
     fail(ExitCode::usage,
          "--variant {} is for normals; with --ssbump maps are taken as they are (squared) or scaled to the "
@@ -148,6 +150,8 @@ int run_decode(DecodeOptions options) {
   check_options(options);
   const LayeredImage image = read_image(options.lightmap);
   const LightmapMetadata metadata = metadata_of(options, image);
+  if (options.variant.empty() && options.ssbump.empty()) options.variant = name_of(natural_variant(metadata));
+  if (options.variant.empty()) options.variant = name_of(DecodeVariant::squared);
   check_fit(options, metadata);
   write(options, decoded(options, lightmap_of(image, metadata)));
   return static_cast<int>(ExitCode::ok);
@@ -195,10 +199,11 @@ void add_meaning(CLI::App& command, DecodeOptions& options) {
       .add_option(
           "--variant", options.variant,
           "squared: sum w LM / sum w, w = sat(dot)^2; linear: sum sat(dot) LM; vrad: squared on maps "
-          "scaled to the flat bake; single: the flat bake [squared]. Of maps baked without --normalize flat, "
+          "scaled to the flat bake; single: the flat bake; encoded: as rnmbake convert wrote it [squared, or "
+          "encoded]. Of maps baked without --normalize flat, "
           "squared returns 0.789 of a uniform sky and 0.577 of an overhead sun for a flat normal")
-      ->check(CLI::IsMember({"squared", "linear", "vrad", "single"}).description(""))
-      ->type_name("squared|linear|vrad|single");
+      ->check(CLI::IsMember({"squared", "linear", "vrad", "single", "encoded"}).description(""))
+      ->type_name("squared|linear|vrad|single|encoded");
   auto* green =
       command.add_option("--normal-green", options.normal_green, "where the normals' green points [y-up]")
           ->check(CLI::IsMember({"y-up", "y-down"}).description(""))

@@ -6,18 +6,11 @@
 #include "base/text.h"
 
 #include <cstdint>
-#include <numeric>
 
 namespace rnmbake {
 namespace {
 
 constexpr double packing_guess = 0.6;  // share of the square that charts fill after unwrapping
-
-std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
-  std::vector<std::uint32_t> triangles(mesh.triangles());
-  std::iota(triangles.begin(), triangles.end(), std::uint32_t{0});
-  return triangles;
-}
 
 const UvLayer& layer_of(const Mesh& mesh, int layer) {
   return mesh.uv_layers[static_cast<std::size_t>(layer)];
@@ -31,14 +24,14 @@ void report_uvs(InspectedObject& inspected, const ObjectSettings& settings) {
     inspected.tangent_layer = layer_of(mesh, *tangent).name;
   if (!choice.layer) {
     const std::vector<Vec2> none(mesh.loop_vertex.size(), Vec2(0));
-    const double world = areas(mesh, all_triangles(mesh), none, object.to_world).world;
+    const double world = areas(mesh, mesh.all_triangles(), none, object.to_world).world;
     inspected.resolution = choose_resolution(settings, {world, packing_guess});
     inspected.problems.push_back("would be unwrapped: " + choice.reason);
     return;
   }
   const UvLayer& layer = layer_of(mesh, *choice.layer);
   inspected.lightmap_layer = layer.name;
-  const Areas sizes = areas(mesh, all_triangles(mesh), layer.uv, object.to_world);
+  const Areas sizes = areas(mesh, mesh.all_triangles(), layer.uv, object.to_world);
   inspected.resolution = choose_resolution(settings, sizes);
   inspected.uv = report_uv(mesh, layer.uv, object.to_world, inspected.resolution, inspected.resolution);
   const int wanted = wanted_resolution(settings, sizes);
@@ -54,7 +47,7 @@ InspectedObject inspect_object(const SceneSurvey& survey, const SceneObject& obj
   if (!config.selects(object.name, object.key)) inspected.not_baked = not_selected;
   if (inspected.mesh->triangles() == 0)
     inspected.not_baked = "no faces";
-  else if (!has_surface(*inspected.mesh, all_triangles(*inspected.mesh), object.to_world))
+  else if (!has_surface(*inspected.mesh, inspected.mesh->all_triangles(), object.to_world))
     inspected.not_baked = "no area";
   if (!inspected.not_baked.empty()) return inspected;
   try {

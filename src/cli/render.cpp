@@ -41,6 +41,7 @@ class OpenScene {
   OpenScene(const ResolvedConfig& config, const RenderFlags& flags)
       : config_(config),
         flags_(flags),
+        decode_(flags.decode),
         blender_(config.globals),
         session_(config_, blender_),
         exported_(opened()),
@@ -49,12 +50,14 @@ class OpenScene {
     if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps, exported_.diffuse_scene);
     if (lightmaps_ && !lightmaps_->bare().empty())
       log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
+    if (lightmaps_ && flags.decode_by_header)
+      decode_ = name_of(natural_variant(lightmaps_->placed().front().lightmap.metadata));
   }
 
   void write_picture() {
     const RenderOptions options = render_options(flags_.with == "cycles");
     if (flags_.with == "cycles") return write({cycles(options), {}, {}});
-    write(render_view(scene_, lightmaps_ ? &*lightmaps_ : nullptr, *lighting_of(flags_.decode), options));
+    write(render_view(scene_, lightmaps_ ? &*lightmaps_ : nullptr, *lighting_of(decode_), options));
   }
 
   [[nodiscard]] Report compare() {
@@ -84,7 +87,7 @@ class OpenScene {
   [[nodiscard]] RenderOptions render_options(bool cycles) const {
     RenderOptions options = rnmbake::render_options(camera_of(exported_.diffuse_scene));
     if (const auto size = flags_.size()) std::tie(options.view.width, options.view.height) = *size;
-    const bool traced = cycles || flags_.decode == "truth";
+    const bool traced = cycles || decode_ == "truth";
     options.view.samples = flags_.samples > 0 ? flags_.samples : traced ? traced_samples : looked_up_samples;
     options.view.seed = static_cast<std::uint64_t>(config_.globals.object.seed);
     options.view.threads = plan_.threads;
@@ -110,12 +113,13 @@ class OpenScene {
     image.layers.push_back({"", {"R", "G", "B"}, std::move(view.beauty)});
     if (!view.albedo.empty()) image.layers.push_back({"albedo", {"R", "G", "B"}, std::move(view.albedo)});
     if (!view.coverage.empty()) image.layers.push_back({"coverage", {""}, std::move(view.coverage)});
-    image.attributes["rnmbake:rendered"] = flags_.with == "cycles" ? "cycles" : flags_.decode;
+    image.attributes["rnmbake:rendered"] = flags_.with == "cycles" ? "cycles" : decode_;
     write_exr(flags_.output, image, Depth::full);
   }
 
   const ResolvedConfig& config_;
   const RenderFlags& flags_;
+  std::string decode_;
   LateBlender blender_;
   BlenderSession session_;
   ExportResult exported_;

@@ -45,10 +45,11 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
       .add_option(
           "--decode", decode,
           "how surfaces are lit: by the flat lightmap (single), by all maps and the material's normal map "
-          "(squared, linear, vrad: see rnmbake decode), traced (truth), or not (none: the albedo alone) "
-          "[squared]")
-      ->check(CLI::IsMember({"single", "squared", "linear", "vrad", "truth", "none"}).description(""))
-      ->type_name("single|squared|linear|vrad|truth|none");
+          "(squared, linear, vrad: see rnmbake decode; encoded: what rnmbake convert wrote), traced (truth), "
+          "or not (none: the albedo alone) [squared, or encoded]")
+      ->check(
+          CLI::IsMember({"single", "squared", "linear", "vrad", "encoded", "truth", "none"}).description(""))
+      ->type_name("single|squared|linear|vrad|encoded|truth|none");
   command.add_option("--with", with, "let Cycles render the view instead")
       ->check(CLI::IsMember({"cycles"}).description(""))
       ->type_name("cycles");
@@ -92,7 +93,8 @@ void RenderFlags::check() {
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", output.string());
   const int ways = int(!decode.empty()) + int(!with.empty()) + int(compare);
   if (ways > 1) fail(ExitCode::usage, "--decode, --with and --compare exclude each other; give one of them");
-  if (ways == 0) decode = "squared";
+  decode_by_header = ways == 0;
+  if (decode_by_header) decode = "squared";
   const bool looks_up = compare || (!decode.empty() && decode != "truth" && decode != "none");
   if (looks_up && lightmaps.empty()) {
     fail(ExitCode::usage,

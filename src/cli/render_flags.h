@@ -28,6 +28,7 @@ class RenderFlags {
 
   SettingsFlags settings;
   std::filesystem::path lightmaps, output;
+  bool decode_by_header = false;  // nothing was said: what the lightmaps are made for
   std::string decode, with, materials = "lambert", resolution, camera;
   int samples = 0;  // 0: not said
   float exposure = 0;

@@ -40,6 +40,7 @@ EncodeCounts& EncodeCounts::operator+=(const EncodeCounts& other) {
   non_finite += other.non_finite;
   negative_lobes += other.negative_lobes;
   over_long += other.over_long;
+  out_of_range += other.out_of_range;
   unconverged += other.unconverged;
   return *this;
 }

@@ -14,6 +14,10 @@ namespace rnmbake {
 
 struct CodecOptions {
   std::string name;  // one of codec_names(), encoding/make_codec.h
+  // How sh2, zh3 and geomerics are packed: encoding/packing.h.
+  double range = 0;   // K: |v_i| <= K a for each axis; 0: a and v as they are
+  int bits = 0;       // of each of v's components: 8, 16, or 0 for floats
+  bool mono = false;  // one v / a for all colours, that of the mean of R, G and B
 };
 
 /// What had to be bent, in texels.
@@ -22,8 +26,9 @@ struct EncodeCounts {
   std::size_t non_finite = 0;  // bakes that are no numbers, or beyond 1e30: written as darkness
   std::size_t negative_lobes =
       0;  // decodes below -1e-3 of the greatest bake at some normal tilted up to 60 degrees
-  std::size_t over_long = 0;    // |v| > 2a, which no light's harmonics have: the fit of a hemisphere may
-  std::size_t unconverged = 0;  // a refit that does not return the bakes; the nearest numbers were written
+  std::size_t over_long = 0;     // |v| > 2a, which no light's harmonics have: the fit of a hemisphere may
+  std::size_t out_of_range = 0;  // did not fit the packing's range and were fitted again within it
+  std::size_t unconverged = 0;   // a refit that does not return the bakes; the nearest numbers were written
 
   EncodeCounts& operator+=(const EncodeCounts& other);
 };

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,13 @@
 
 namespace rnmbake {
 namespace {
+
+int rank_of(const std::string& channel) {
+  static constexpr std::string_view order = "RGBXYZ";
+  if (channel == "A") return static_cast<int>(order.size()) + 1;
+  const auto found = channel.size() == 1 ? order.find(channel[0]) : std::string_view::npos;
+  return static_cast<int>(found == std::string_view::npos ? order.size() : found);
+}
 
 char upper(char c) {
   return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -78,6 +86,18 @@ std::vector<ChannelGroup> channel_groups(const std::vector<std::string>& names) 
   std::vector<ChannelGroup> list;
   for (auto& [layer, group] : groups) list.push_back(std::move(group));
   return list;
+}
+
+ChannelGroup in_usual_order(const ChannelGroup& group) {
+  std::vector<std::size_t> order(group.channels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t place) { return rank_of(group.channels[place]); });
+  ChannelGroup ordered{group.layer, {}, {}};
+  for (const std::size_t place : order) {
+    ordered.channels.push_back(group.channels[place]);
+    ordered.index.push_back(group.index[place]);
+  }
+  return ordered;
 }
 
 std::vector<int> places_of(const std::vector<std::string>& channels, std::string_view letters) {

@@ -10,11 +10,6 @@
 namespace rnmbake {
 namespace {
 
-std::string channel_name(const Layer& layer, const std::string& channel) {
-  if (layer.name.empty() || channel.empty()) return layer.name + channel;
-  return layer.name + "." + channel;
-}
-
 void check(const std::filesystem::path& file, const LayeredImage& image) {
   if (image.layers.empty()) fail(ExitCode::invalid_input, "{}: there is no layer to write", file.string());
   const FloatImage& first = image.layers.front().pixels;
@@ -74,6 +69,11 @@ bool write_rows(OIIO::ImageOutput& out, const LayeredImage& image, const OIIO::I
 }
 
 }  // namespace
+
+std::string channel_name(const Layer& layer, const std::string& channel) {
+  if (layer.name.empty() || channel.empty()) return layer.name + channel;
+  return layer.name + "." + channel;
+}
 
 const Layer* LayeredImage::find(const std::string& name) const {
   const auto found = std::ranges::find(layers, name, &Layer::name);

@@ -21,6 +21,9 @@ struct Layer {
   FloatImage pixels;
 };
 
+/// "name.R", "R" in the layer "", "name" of a channel "".
+[[nodiscard]] std::string channel_name(const Layer& layer, const std::string& channel);
+
 struct LayeredImage {
   std::vector<Layer> layers;
   std::map<std::string, Attribute> attributes;

@@ -47,7 +47,7 @@ OIIO::ImageSpec spec_of(const std::string& ending, const PictureForm& form) {
   OIIO::ImageSpec spec(form.width, form.height, static_cast<int>(form.channels.size()),
                        type_of(form.storage));
   spec.channelnames = form.channels;
-  spec.alpha_channel = form.channels.size() == 4 ? 3 : -1;
+  spec.alpha_channel = form.channels.size() == 4 && form.channels[3] == "A" ? 3 : -1;
   for (const auto& [name, value] : form.attributes) set_attribute(spec, name, fitting(ending, value));
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("DateTime", "");  // or EXR stores the time of day, and two equal runs would differ

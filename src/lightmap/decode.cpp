@@ -2,9 +2,11 @@
 
 #include "base/error.h"
 #include "encoding/flip_green.h"
+#include "encoding/make_codec.h"
 #include "encoding/rnm.h"
 #include "image/channels.h"
 #include "image/sample.h"
+#include "lightmap/frames.h"
 #include "lightmap/normalize.h"
 
 #include <algorithm>
@@ -21,7 +23,7 @@ void require_layers(const Lightmap& lightmap, DecodeVariant variant) {
          "the {} decode needs the flat layer, which this lightmap does not have; bake flat too",
          name_of(variant));
   }
-  if (variant == DecodeVariant::single) return;
+  if (variant == DecodeVariant::single || variant == DecodeVariant::encoded) return;
   if (!lightmap.holds(rnm_encoding)) {
     fail(ExitCode::unsupported, "the {} decode needs the layers rnm0, rnm1 and rnm2; bake all three",
          name_of(variant));
@@ -69,20 +71,16 @@ std::optional<std::string> rnm_obstacle(const LightmapMetadata& metadata, Decode
 }  // namespace
 
 Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata) {
-  const auto colours = [&](const std::string& name) {
-    const Layer* layer = image.find(name);
-    const auto places = layer == nullptr ? std::vector<int>{} : places_of(layer->channels, "RGB");
-    if (places.empty()) return FloatImage();
-    return layer->pixels.channels() == 3 ? layer->pixels : picked(layer->pixels, places);
-  };
-  const Layer* coverage = image.find("coverage");
-  const bool is_single = coverage != nullptr && coverage->pixels.channels() == 1;
-  Lightmap lightmap{metadata, {}, is_single ? coverage->pixels : FloatImage()};
-  for (const Encoding& encoding : encodings) {
-    for (const std::string_view name : encoding.layers) {
-      if (FloatImage pixels = colours(exr_layer(name)); !pixels.empty())
-        lightmap.layers.emplace(name, std::move(pixels));
+  Lightmap lightmap{metadata, {}, {}, {}};
+  for (const Layer& layer : image.layers) {
+    const auto places = places_of(layer.channels, "RGB");
+    if (!places.empty()) {
+      lightmap.layers.emplace(name_of_exr_layer(layer.name),
+                              layer.pixels.channels() == 3 ? layer.pixels : picked(layer.pixels, places));
     }
+    if (layer.name == "coverage" && layer.pixels.channels() == 1) lightmap.coverage = layer.pixels;
+    const bool is_frame = layer.name == "tangent" || layer.name == "normal";
+    if (is_frame && metadata.space == "world") lightmap.frames.push_back(layer);
   }
   return lightmap;
 }
@@ -106,8 +104,14 @@ const char* name_of(DecodeVariant variant) {
       return "vrad";
     case DecodeVariant::single:
       return "single";
+    case DecodeVariant::encoded:
+      return "encoded";
   }
   return "unknown";
+}
+
+DecodeVariant natural_variant(const LightmapMetadata& metadata) {
+  return metadata.is_encoded() ? DecodeVariant::encoded : DecodeVariant::squared;
 }
 
 FloatImage normals_of(const LayeredImage& picture, const std::string& file) {
@@ -124,27 +128,72 @@ FloatImage normals_of(const LayeredImage& picture, const std::string& file) {
 }
 
 std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata, DecodeVariant variant) {
-  if (metadata.convention != clipped_hemisphere_integral)
-    return "its convention is '" + metadata.convention + "'";
   if (metadata.units != "E/pi") return "its units are '" + metadata.units + "'";
-  if (metadata.space != "tangent") return "its directions are in " + metadata.space + " space";
   if (metadata.handedness != "right") return "its frame is " + metadata.handedness + "-handed";
+  if (variant == DecodeVariant::encoded) {
+    if (metadata.is_encoded()) return std::nullopt;
+    return metadata.is_baked() ? "its maps are those of a bake, not of another encoding"
+                               : "its convention is '" + metadata.convention + "'";
+  }
+  if (!metadata.is_baked()) return "its convention is '" + metadata.convention + "'";
+  if (metadata.space != "tangent") return "its directions are in " + metadata.space + " space";
   return variant == DecodeVariant::single ? std::nullopt : rnm_obstacle(metadata, variant);
 }
 
 LightmapDecoder::LightmapDecoder(Lightmap lightmap, DecodeVariant variant) : variant_(variant) {
   require_layers(lightmap, variant);
   metadata_ = std::move(lightmap.metadata);
+  coverage_ = std::move(lightmap.coverage);
+  if (variant == DecodeVariant::encoded) {
+    take_encoded(lightmap);
+    return;
+  }
   flat_ = lightmap.take(flat_layers.front());
   for (std::size_t i = 0; i < rnm_.size(); ++i) rnm_[i] = lightmap.take(rnm_layers[i]);
-  coverage_ = std::move(lightmap.coverage);
   if (variant == DecodeVariant::vrad && metadata_.normalize == Normalize::none)
     normalize_to_flat({&rnm_[0], &rnm_[1], &rnm_[2]}, flat_);
 }
 
+void LightmapDecoder::take_encoded(Lightmap& lightmap) {
+  codec_ = make_codec(metadata_.codec, {"the header", metadata_.bases});
+  for (const std::string& name : codec_->layers()) {
+    encoded_.push_back(lightmap.take(name));
+    if (encoded_.back().empty()) {
+      fail(ExitCode::unsupported,
+           "the {} decode needs the layer {}, which this lightmap does not have; convert it again",
+           metadata_.convention, name);
+    }
+  }
+  frames_ = std::move(lightmap.frames);
+  if (metadata_.space == "world" && frames_.size() < 2) {
+    fail(ExitCode::unsupported,
+         "this lightmap is in world space and has no layers tangent and normal; convert it again from a bake "
+         "with "
+         "--frames");
+  }
+}
+
+const FloatImage& LightmapDecoder::any_layer() const {
+  if (!encoded_.empty()) return encoded_.front();
+  return flat_.empty() ? rnm_[0] : flat_;
+}
+
 std::array<Tap, 4> LightmapDecoder::taps_at(const Vec2& uv) const {
-  const auto taps = bilinear_taps(flat_.empty() ? rnm_[0] : flat_, uv, Border::clamp);
+  const auto taps = bilinear_taps(any_layer(), uv, Border::clamp);
   return coverage_.empty() ? taps : covered_taps(taps, coverage_);
+}
+
+/// Layers are mixed first, as a GPU does it; the frame is that of the texel which counts most.
+Vec3 LightmapDecoder::encoded_at(const std::array<Tap, 4>& taps, const Vec3& normal) const {
+  std::vector<Vec3> values;
+  values.reserve(encoded_.size());
+  for (const FloatImage& layer : encoded_) values.push_back(colour(layer, taps));
+  if (metadata_.space != "world") return codec_->decode(values, normal);
+  const Tap& most = *std::ranges::max_element(taps, {}, &Tap::weight);
+  const bool normal_first = frames_[0].name == "normal";
+  const auto frame = frame_at(&frames_[normal_first ? 1 : 0], &frames_[normal_first ? 0 : 1], most.x, most.y,
+                              metadata_.green);
+  return codec_->decode(values, frame.value_or(TexelFrame{}).stored(normal));
 }
 
 std::array<Vec3, 3> LightmapDecoder::rnm_at(const Vec2& uv) const {
@@ -155,18 +204,19 @@ std::array<Vec3, 3> LightmapDecoder::rnm_at(const Vec2& uv) const {
 Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
   const auto taps = taps_at(uv);
   if (variant_ == DecodeVariant::single) return colour(flat_, taps);
-  const std::array<Vec3, 3> maps = rnm_at(uv);
   const Vec3 turned = green == metadata_.green ? normal : flip_green(normal);
+  if (codec_) return encoded_at(taps, turned);
+  const std::array<Vec3, 3> maps = rnm_at(uv);
   return variant_ == DecodeVariant::linear ? rnm_decode_linear(maps, turned)
                                            : rnm_decode_squared(maps, turned);
 }
 
 int LightmapDecoder::width() const {
-  return (flat_.empty() ? rnm_[0] : flat_).width();
+  return any_layer().width();
 }
 
 int LightmapDecoder::height() const {
-  return (flat_.empty() ? rnm_[0] : flat_).height();
+  return any_layer().height();
 }
 
 FloatImage decode(Lightmap lightmap, const NormalPicture& normal_map, DecodeVariant variant) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "encoding/codec.h"
 #include "encoding/encodings.h"
 #include "image/float_image.h"
 #include "image/layered_exr.h"
@@ -12,17 +13,20 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rnmbake {
 
 /// A lightmap file taken apart.
 struct Lightmap {
   LightmapMetadata metadata;
-  std::map<std::string, FloatImage, std::less<>> layers;  // RGB, by the names of encoding/encodings.h
+  std::map<std::string, FloatImage, std::less<>> layers;  // RGB, by name; the plain one is "flat"
   FloatImage coverage;                                    // one channel; empty: the file has none
+  std::vector<Layer> frames;  // `tangent` and `normal`, of a lightmap in world space
 
   [[nodiscard]] bool holds(const Encoding& encoding) const;
 
@@ -37,9 +41,13 @@ enum class DecodeVariant {
   linear,   // sum sat(dot) LM: Bakery
   vrad,     // as squared, on maps scaled so that a flat normal returns the flat bake
   single,   // the flat bake, whatever the normal
+  encoded,  // by the decoder of the encoding that the header names (encoding/codec.h)
 };
 
 [[nodiscard]] const char* name_of(DecodeVariant variant);
+
+/// For the maps of a bake squared, for a converted lightmap encoded.
+[[nodiscard]] DecodeVariant natural_variant(const LightmapMetadata& metadata);
 
 /// Tangent-space normals: RGB of unit vectors, `green` says where y points.
 struct NormalPicture {
@@ -61,7 +69,8 @@ struct NormalPicture {
 /// is near, then the normal. Maps that the header calls normalized are never scaled again.
 class LightmapDecoder {
  public:
-  /// Throws Error(unsupported), naming it, where a layer that the variant needs is missing.
+  /// Throws Error(unsupported), naming it, where a layer that the variant needs is missing, or the frames of
+  /// a lightmap in world space.
   LightmapDecoder(Lightmap lightmap, DecodeVariant variant);
 
   /// E/pi. `normal`: unit, tangent space; turned to the lightmap's green.
@@ -75,11 +84,17 @@ class LightmapDecoder {
   [[nodiscard]] int height() const;
 
  private:
+  void take_encoded(Lightmap& lightmap);
+  [[nodiscard]] const FloatImage& any_layer() const;
   [[nodiscard]] std::array<Tap, 4> taps_at(const Vec2& uv) const;
+  [[nodiscard]] Vec3 encoded_at(const std::array<Tap, 4>& taps, const Vec3& normal) const;
 
   LightmapMetadata metadata_;
-  FloatImage flat_;                // empty where the file does not hold it
-  std::array<FloatImage, 3> rnm_;  // the same
+  FloatImage flat_;                     // empty where the file does not hold it
+  std::array<FloatImage, 3> rnm_;       // the same
+  std::shared_ptr<const Codec> codec_;  // of the variant `encoded`, with its layers
+  std::vector<FloatImage> encoded_;
+  std::vector<Layer> frames_;
   FloatImage coverage_;
   DecodeVariant variant_;
 };

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "encoding/encodings.h"
+#include "encoding/make_codec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@ namespace rnmbake {
 namespace {
 
 const std::string prefix = "rnmbake:";
+constexpr const char* baked_codec = "rnm";  // layers are the bakes: no other numbers
 
 /// Attributes of one file by their short names; every message names the file.
 class Header {
@@ -48,6 +50,11 @@ Enum one_of(const Header& header, const std::string& name, std::initializer_list
   header.refuse(prefix + name + " is '" + text + "'");
 }
 
+/// Conventions of converted lightmaps are the names of their codecs; bakes themselves go by their definition.
+bool is_codec(const std::string& convention) {
+  return convention != baked_codec && std::ranges::count(codec_names(), convention) > 0;
+}
+
 /// One direction is a list of three floats, which some readers hand back as a plain list.
 Vec3 direction_of(const Header& header, const std::string& name) {
   const auto numbers = header.required<std::vector<float>>("basis:" + name);
@@ -76,15 +83,28 @@ void check_layer(const Header& header, const LayeredImage& image, const std::str
 
 std::vector<BasisDirection> bases_of(const Header& header, const LayeredImage& image) {
   const bool is_whole = !image.attributes.contains(prefix + "layer");  // see lightmap/layout.h
+  const bool holds_bakes = !is_codec(header.required<std::string>("convention"));
   std::vector<BasisDirection> bases;
   for (const std::string& name : split(header.required<std::string>("basis"))) {
     if (std::ranges::count(bases, name, &BasisDirection::name) > 0)
       header.refuse("basis '" + name + "' is listed twice");
     bases.push_back({name, direction_of(header, name)});
-    if (is_whole) check_layer(header, image, name);
+    if (is_whole && holds_bakes) check_layer(header, image, name);
   }
   if (bases.empty()) header.refuse(prefix + "basis lists nothing");
   return bases;
+}
+
+CodecOptions codec_of(const Header& header, const std::string& convention) {
+  CodecOptions codec{convention};
+  float range = 0;
+  int is_mono = 0;
+  header.optional("range", range);
+  header.optional("bits", codec.bits);
+  header.optional("mono", is_mono);
+  codec.range = range;
+  codec.mono = is_mono != 0;
+  return codec;
 }
 
 void read_origin(const Header& header, LightmapMetadata& metadata) {
@@ -129,6 +149,16 @@ const char* name_of(Normalize normalize) {
   return normalize == Normalize::none ? "none" : "flat";
 }
 
+bool LightmapMetadata::is_encoded() const {
+  return is_codec(convention);
+}
+
+void LightmapMetadata::set_codec(const CodecOptions& options) {
+  codec = options;
+  convention = options.name == baked_codec ? clipped_hemisphere_integral : options.name;
+  if (!is_baked()) normalize = Normalize::none;
+}
+
 bool has_metadata(const LayeredImage& image) {
   return image.attributes.contains(prefix + "convention");
 }
@@ -149,6 +179,11 @@ void write_metadata(const LightmapMetadata& metadata, LayeredImage& image) {
     set(("basis:" + name).c_str(), std::vector<float>{v.x, v.y, v.z});
   }
   set("basis", names);
+  if (metadata.is_encoded() && metadata.codec.range > 0) {
+    set("range", static_cast<float>(metadata.codec.range));
+    set("bits", metadata.codec.bits);
+    set("mono", metadata.codec.mono ? 1 : 0);
+  }
   set("recipe", metadata.recipe);
   set("horizon", metadata.horizon);
   set("footprint", metadata.footprint);
@@ -177,6 +212,7 @@ LightmapMetadata read_metadata(const LayeredImage& image, const std::string& fil
   metadata.green = one_of(header, "green", {Green::y_up, Green::y_down});
   metadata.normalize = one_of(header, "normalize", {Normalize::none, Normalize::flat});
   metadata.bases = bases_of(header, image);
+  if (metadata.is_encoded()) metadata.codec = codec_of(header, metadata.convention);
   read_origin(header, metadata);
   check_agreement(header, metadata);
   return metadata;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "encoding/basis_set.h"
+#include "encoding/codec.h"
 #include "image/layered_exr.h"
 #include "lightmap/merge.h"
 
@@ -30,6 +31,7 @@ struct LightmapMetadata {
   Green green = Green::y_up;
   Normalize normalize = Normalize::none;
   std::vector<BasisDirection> bases;  // baked directions in layer order, "flat" included
+  CodecOptions codec;                 // of a converted lightmap; its `bases` are what it was made from
 
   std::string recipe;     // "receiver", "flat-normal-map", "reference"
   std::string horizon;    // how corners whose basis normal falls under their face were treated
@@ -43,6 +45,15 @@ struct LightmapMetadata {
   std::string model;   // "true", "flat-normal-map"
   std::string faults;  // of the latter, separated by commas; "none"
   float error = 0;     // relative standard error that tracing went on for; 0: `samples` decided
+
+  /// The layers are the bakes of `bases`.
+  [[nodiscard]] bool is_baked() const { return convention == clipped_hemisphere_integral; }
+
+  /// The layers are those of `codec`; where neither is true the convention is somebody else's.
+  [[nodiscard]] bool is_encoded() const;
+
+  /// Of a lightmap that is converted; the codec "rnm" stands for the bakes themselves.
+  void set_codec(const CodecOptions& options);
 };
 
 /// True where the header carries the convention's name, i.e. the file calls itself an rnmbake lightmap.

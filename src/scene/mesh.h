@@ -4,6 +4,7 @@
 #include "base/math.h"
 
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,12 @@ struct Mesh {
   int render_uv = -1;  // the layer that image textures use by default (active-render)
 
   [[nodiscard]] std::size_t triangles() const { return triangle_polygon.size(); }
+  /// Their numbers: 0, 1, ...
+  [[nodiscard]] std::vector<std::uint32_t> all_triangles() const {
+    std::vector<std::uint32_t> numbers(triangles());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+  }
   [[nodiscard]] std::uint32_t corner_vertex(std::size_t corner) const {
     return loop_vertex[triangle_loops[corner]];
   }

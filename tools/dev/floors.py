@@ -30,7 +30,7 @@ OWNED = {
     "toml++/": {"config", "cli"},
     "CLI/": {"cli"},
     "embree": {"rays"},
-    "tbb/": {"trace", "ssbump"},
+    "tbb/": {"trace", "ssbump", "pipeline"},
     "hwy/": {"ssbump"},
     "xxhash.h": {"base"},
     "utf8proc.h": {"base"},

@@ -20,10 +20,11 @@ struct Decoded {
   const char* label;
   DecodeVariant variant;
 };
-constexpr std::array<Decoded, 4> decodes{{{"single lightmap", DecodeVariant::single},
+constexpr std::array<Decoded, 5> decodes{{{"single lightmap", DecodeVariant::single},
                                           {"RNM, squared", DecodeVariant::squared},
                                           {"RNM, linear", DecodeVariant::linear},
-                                          {"RNM, vrad", DecodeVariant::vrad}}};
+                                          {"RNM, vrad", DecodeVariant::vrad},
+                                          {"as encoded", DecodeVariant::encoded}}};
 
 /// A picture, or the two halves of one that has noise.
 struct Halves {

@@ -16,7 +16,7 @@ namespace rnmbake {
 namespace {
 
 constexpr std::array variants{DecodeVariant::single, DecodeVariant::squared, DecodeVariant::linear,
-                              DecodeVariant::vrad};
+                              DecodeVariant::vrad, DecodeVariant::encoded};
 
 /// Lights one place after the other.
 class Shader {

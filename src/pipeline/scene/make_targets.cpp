@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -22,12 +21,6 @@ namespace {
 constexpr const char* unwrapped_layer = "Lightmap";
 constexpr const char* no_area = "no area";
 constexpr std::size_t most_uv_layers = 8;  // of a mesh, in every Blender (MAX_MTFACE)
-
-std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
-  std::vector<std::uint32_t> triangles(mesh.triangles());
-  std::iota(triangles.begin(), triangles.end(), std::uint32_t{0});
-  return triangles;
-}
 
 /// Selected object with its settings and UV layers.
 struct Candidate {
@@ -99,7 +92,7 @@ class TargetMaker {
     const Mesh& mesh = survey_.mesh_of(object);
     if (!config_.selects(object.name, object.key)) return skip(object.key, "not selected");
     if (mesh.triangles() == 0) return skip(object.key, "no faces");
-    if (!has_surface(mesh, all_triangles(mesh), object.to_world)) return skip(object.key, no_area);
+    if (!has_surface(mesh, mesh.all_triangles(), object.to_world)) return skip(object.key, no_area);
     try {
       Candidate candidate;
       candidate.object = index;

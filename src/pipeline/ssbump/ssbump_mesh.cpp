@@ -17,7 +17,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include <spdlog/fmt/ranges.h>
@@ -69,12 +68,6 @@ SceneSurvey survey_meshes(BlenderSession& session, const fs::path& file) {
        file.string());
 }
 
-std::vector<std::uint32_t> all_triangles(const Mesh& mesh) {
-  std::vector<std::uint32_t> all(mesh.triangles());
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
-}
-
 /// UV layer of the map.
 std::size_t layer_of(const Mesh& mesh, const SceneObject& object, const std::string& wanted) {
   const auto named = std::find_if(mesh.uv_layers.begin(), mesh.uv_layers.end(),
@@ -87,7 +80,7 @@ std::size_t layer_of(const Mesh& mesh, const SceneObject& object, const std::str
   const std::size_t layer =
       wanted.empty() ? active : static_cast<std::size_t>(named - mesh.uv_layers.begin());
   const bool usable = !mesh.uv_layers.empty() &&
-                      areas(mesh, all_triangles(mesh), mesh.uv_layers[layer].uv, object.to_world).uv > 1e-12;
+                      areas(mesh, mesh.all_triangles(), mesh.uv_layers[layer].uv, object.to_world).uv > 1e-12;
   if (usable) return layer;
   fail(ExitCode::invalid_input,
        "object '{}' has no UVs with an area, so there is no picture to put detail on; unwrap it in Blender "
@@ -102,7 +95,7 @@ LowSurface low_surface(const SceneSurvey& survey, std::size_t index, const std::
   Target target;
   target.object = index;
   target.key = object.key;
-  target.part.triangles = all_triangles(mesh);
+  target.part.triangles = mesh.all_triangles();
   target.uv = target.tangent_uv = std::make_shared<const std::vector<Vec2>>(layer.uv);
   target.uv_layer = target.tangent_layer = layer.name;
   LostDirections lost;

@@ -1,0 +1,323 @@
+#include "pipeline/convert/convert.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json.h"
+#include "encoding/encodings.h"
+#include "encoding/make_codec.h"
+#include "image/picture_rows.h"
+#include "lightmap/half_range.h"
+#include "pipeline/convert/frame_rows.h"
+#include "pipeline/lightmaps/lightmap_rows.h"
+#include "pipeline/lightmaps/manifest_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int band_rows = 64;  // whole zip blocks, and more than FrameRows::reach
+
+/// Decoders that return the very bakes which their numbers were made from.
+bool keeps_bakes(const CodecOptions& codec) {
+  const bool is_lobe = codec.name == "sh2" || codec.name == "zh3" || codec.name == "geomerics";
+  return is_lobe && codec.range == 0;
+}
+
+/// The way back: each layer is the bake of one direction.
+class BakesCodec : public Codec {
+ public:
+  explicit BakesCodec(const BasisSet& directions) {
+    for (const BasisDirection& basis : directions.directions) layers_.push_back(basis.name);
+  }
+  const std::vector<std::string>& layers() const override { return layers_; }
+  bool can_rotate() const override { return false; }
+  /// No normal is asked for: what is read is the layers.
+  Vec3 decode(std::span<const Vec3> layers, const Vec3&) const override { return layers.front(); }
+
+ private:
+  EncodeCounts encode_texel(std::span<const Vec3> irradiance, std::span<Vec3> layers,
+                            const TexelFrame&) const override {
+    std::ranges::copy(irradiance, layers.begin());
+    return {};
+  }
+  std::vector<std::string> layers_;
+};
+
+std::unique_ptr<const Codec> target_codec(const CodecOptions& options, const BasisSet& directions) {
+  if (options.name == "rnm") return std::make_unique<BakesCodec>(directions);
+  return make_codec(options, directions);
+}
+
+/// E/pi of one texel at each direction of the codec that is fed.
+class TexelSource {
+ public:
+  TexelSource(const LightmapMetadata& metadata, const BasisSet& directions) : directions_(directions) {
+    if (metadata.is_baked()) {
+      for (const BasisDirection& basis : directions.directions) layers_.push_back(exr_layer(basis.name));
+      return;
+    }
+    codec_ = make_codec(metadata.codec, directions);
+    for (const std::string& name : codec_->layers()) layers_.push_back(exr_layer(name));
+  }
+
+  /// Pictures of the source's layers among these rows. Throws Error(invalid_input), naming `file`.
+  [[nodiscard]] std::vector<const FloatImage*> pictures(const LayeredImage& rows,
+                                                        const std::string& file) const {
+    std::vector<const FloatImage*> found;
+    for (const std::string& name : layers_) {
+      const Layer* layer = rows.find(name);
+      if (layer == nullptr || layer->pixels.channels() != 3) {
+        fail(ExitCode::invalid_input, "{} holds no RGB layer '{}', which its header promises; bake it again",
+             file, name_of_exr_layer(name));
+      }
+      found.push_back(&layer->pixels);
+    }
+    return found;
+  }
+
+  /// `values`: the source's layers there, in their order; `stored`: the texel's frame in the space of these
+  /// layers.
+  void irradiance(std::span<const Vec3> values, const TexelFrame& stored, std::span<Vec3> out) const {
+    if (!codec_) {
+      std::ranges::copy(values, out.begin());
+      return;
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = codec_->decode(values, stored.stored(directions_.directions[i].direction));
+  }
+
+  [[nodiscard]] std::size_t layer_count() const { return layers_.size(); }
+
+ private:
+  const BasisSet& directions_;
+  std::vector<std::string> layers_;
+  std::unique_ptr<const Codec> codec_;  // none: the layers are the bakes themselves
+};
+
+Vec3 colour_at(const FloatImage& picture, int x, int y) {
+  const auto texel = picture.texel(x, y);
+  return {texel[0], texel[1], texel[2]};
+}
+
+bool holds_frames(const LayeredImage& image) {
+  return image.find("tangent") != nullptr && image.find("normal") != nullptr;
+}
+
+/// One lightmap on its way from file to file.
+class Conversion {
+ public:
+  Conversion(const LightmapPlace& place, const ConvertOptions& options)
+      : options_(options),
+        source_(place),
+        directions_{source_.file(), source_.metadata().bases},
+        codec_(target_codec(options.codec, directions_)),
+        texels_(source_.metadata(), directions_),
+        frames_(source_.metadata().green) {
+    const LightmapMetadata& metadata = source_.metadata();
+    if (const auto why = convert_obstacle(metadata)) refuse(*why);
+    from_world_ = metadata.space == "world";
+    if (metadata.normalize == Normalize::flat && options.codec.name != "flat" &&
+        options.codec.name != "rnm-vrad")
+      refuse(
+          "its maps are scaled to the flat bake, and what they were is not in the file; bake without "
+          "--normalize flat");
+    if ((options.world || from_world_) && !holds_frames(source_.header())) {
+      refuse(
+          "world space needs the tangent frames of its texels, which it does not hold; bake it with "
+          "--frames");
+    }
+    if (options.world && !codec_->can_rotate())
+      refuse("the encoding '" + options.codec.name +
+             "' exists in tangent space only; leave out --space world");
+  }
+
+  ConvertSummary write(const fs::path& file, const std::function<void(double)>& progress) {
+    PictureForm form{source_.width(), source_.height(), {}, Storage::full, {}};
+    if (options_.depth == Depth::half) form.storage = Storage::half;
+    LayeredImage header = output_header();
+    for (const Layer& layer : header.layers)
+      for (const std::string& channel : layer.channels) form.channels.push_back(channel_name(layer, channel));
+    form.attributes = std::move(header.attributes);
+    PictureWriter writer(file, form);
+    summary_.file = file;
+    LayeredImage next = read(0);
+    for (int begin = 0; begin < source_.height(); begin += band_rows) {
+      const LayeredImage rows = std::exchange(next, read(begin + band_rows));
+      const int end = std::min(begin + band_rows, source_.height());
+      writer.write(begin, end, converted(rows, begin, end, form.channels.size()));
+      if (progress) progress(double(end) / source_.height());
+    }
+    writer.commit();
+    return std::move(summary_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    fail(ExitCode::unsupported, "{} cannot become '{}': {}", source_.file(), options_.codec.name, why);
+  }
+
+  /// The band from `begin` on; frames are known before the band above them is converted.
+  LayeredImage read(int begin) {
+    if (begin >= source_.height()) return {};
+    LayeredImage rows = source_.read(begin, std::min(begin + band_rows, source_.height()));
+    if (options_.world || from_world_) frames_.add(begin, rows);
+    return rows;
+  }
+
+  /// Layers of the result, without pixels, and its header.
+  [[nodiscard]] LayeredImage output_header() const {
+    LayeredImage header;
+    for (const std::string& name : codec_->layers())
+      header.layers.push_back({exr_layer(name), {"R", "G", "B"}, {}});
+    for (const Layer& layer : source_.header().layers)
+      if (is_kept(layer)) header.layers.push_back(layer);
+    LightmapMetadata metadata = source_.metadata();
+    metadata.set_codec(options_.codec);
+    metadata.space = options_.world ? "world" : "tangent";
+    write_metadata(metadata, header);
+    return header;
+  }
+
+  [[nodiscard]] static bool is_kept(const Layer& layer) {
+    return layer.name == "coverage" || layer.name == "tangent" || layer.name == "normal" ||
+           layer.name == "validity";
+  }
+
+  std::vector<float> converted(const LayeredImage& rows, int begin, int end, std::size_t channels) {
+    const auto pictures = texels_.pictures(rows, source_.file());
+    const Layer* coverage = rows.find("coverage");
+    std::vector<const Layer*> kept;
+    for (const Layer& layer : rows.layers)
+      if (is_kept(layer)) kept.push_back(&layer);
+    frames_.drop_above(begin);
+    const int width = source_.width();
+    std::vector<float> out(std::size_t(end - begin) * width * channels);
+    std::mutex mutex;
+    tbb::parallel_for(tbb::blocked_range<int>(0, end - begin), [&](const tbb::blocked_range<int>& range) {
+      ConvertSummary sums;
+      TexelBuffers buffers{std::vector<Vec3>(texels_.layer_count()),
+                           std::vector<Vec3>(directions_.directions.size()),
+                           std::vector<Vec3>(codec_->layers().size())};
+      for (int y = range.begin(); y < range.end(); ++y) {
+        for (int x = 0; x < width; ++x) {
+          const bool is_covered = coverage == nullptr || coverage->pixels.texel(x, y)[0] > 0.5F;
+          for (std::size_t i = 0; i < pictures.size(); ++i) buffers.values[i] = colour_at(*pictures[i], x, y);
+          float* to = &out[(std::size_t(y) * width + x) * channels];
+          to = write_texel(buffers, x, begin + y, is_covered, sums, to);
+          for (const Layer* layer : kept) to = std::ranges::copy(layer->pixels.texel(x, y), to).out;
+        }
+      }
+      const std::scoped_lock lock(mutex);
+      summary_.counts += sums.counts;
+      summary_.beyond_half += sums.beyond_half;
+      summary_.without_frame += sums.without_frame;
+    });
+    return out;
+  }
+
+  struct TexelBuffers {
+    std::vector<Vec3> values, irradiance, layers;
+  };
+
+  float* write_texel(TexelBuffers& buffers, int x, int y, bool is_covered, ConvertSummary& sums,
+                     float* to) const {
+    std::optional<TexelFrame> world;
+    if (options_.world || from_world_) world = frames_.nearest(x, y);
+    if ((options_.world || from_world_) && !world && is_covered) ++sums.without_frame;
+    texels_.irradiance(buffers.values, from_world_ ? world.value_or(TexelFrame{}) : TexelFrame{},
+                       buffers.irradiance);
+    if (options_.world && !world)  // the same from everywhere: what is left of light without a frame
+      std::ranges::fill(buffers.irradiance, buffers.irradiance.front());
+    const EncodeCounts counts =
+        codec_->encode(buffers.irradiance, buffers.layers, options_.world && world ? *world : TexelFrame{});
+    if (is_covered) sums.counts += counts;
+    for (const Vec3& layer : buffers.layers) {
+      for (int c = 0; c < 3; ++c) {
+        const float value = layer[c];
+        const bool is_beyond = options_.depth == Depth::half && std::abs(value) > largest_half;
+        sums.beyond_half += is_beyond && is_covered ? 1 : 0;
+        *to++ = is_beyond ? std::copysign(largest_half, value) : value;
+      }
+    }
+    return to;
+  }
+
+  const ConvertOptions& options_;
+  LightmapRows source_;
+  BasisSet directions_;
+  std::unique_ptr<const Codec> codec_;
+  TexelSource texels_;
+  FrameRows frames_;
+  bool from_world_ = false;
+  ConvertSummary summary_;
+};
+
+void write_converted_manifest(const fs::path& source, const std::vector<ConvertSummary>& converted,
+                              const ConvertOptions& options, const fs::path& folder) {
+  nlohmann::json manifest = read_manifest(source / "manifest.json");
+  LightmapMetadata metadata;
+  metadata.set_codec(options.codec);
+  manifest["conventions"]["encoding"] = metadata.convention;
+  manifest["conventions"]["space"] = options.world ? "world" : "tangent";
+  if (!metadata.is_baked()) manifest["conventions"]["normalize"] = name_of(Normalize::none);
+  for (nlohmann::json& object : manifest["objects"]) {
+    const auto found = std::ranges::find(converted, object["key"].get<std::string>(), &ConvertSummary::key);
+    object["files"] = nlohmann::json::array();
+    if (found != converted.end()) object["files"].push_back(found->file.filename().string());
+  }
+  write_atomically(folder / "manifest.json", manifest.dump(2) + "\n");
+}
+
+}  // namespace
+
+std::optional<std::string> convert_obstacle(const LightmapMetadata& metadata) {
+  if (metadata.units != "E/pi") return "its units are '" + metadata.units + "'; E/pi is needed";
+  if (metadata.handedness != "right") return "its frame is " + metadata.handedness + "-handed; bake it again";
+  if (metadata.is_baked()) return std::nullopt;
+  if (!metadata.is_encoded())
+    return "its convention is '" + metadata.convention + "', which is not known; convert what rnmbake baked";
+  if (keeps_bakes(metadata.codec)) return std::nullopt;
+  return "'" + metadata.convention + "' does not keep what was baked; convert the baked lightmap";
+}
+
+ConvertSummary convert_lightmap(const LightmapPlace& place, const ConvertOptions& options,
+                                const fs::path& file, const std::function<void(double)>& progress) {
+  ConvertSummary summary = Conversion(place, options).write(file, progress);
+  summary.key = place.key;
+  return summary;
+}
+
+std::vector<ConvertSummary> convert_lightmaps(const fs::path& source, const ConvertOptions& options,
+                                              const fs::path& folder,
+                                              const std::function<void(double, std::string)>& progress) {
+  const LightmapFolder found = open_lightmaps(source);
+  make_folders(folder);
+  std::error_code unreadable;
+  if (fs::equivalent(found.single_file ? source.parent_path() / "." : source, folder, unreadable)) {
+    fail(ExitCode::usage, "{} holds what is converted, which would be replaced; name another folder with -o",
+         folder.string());
+  }
+  std::vector<ConvertSummary> converted;
+  for (const LightmapPlace& place : found.places) {
+    const auto share = [&](double of_file) {
+      if (progress) progress((double(converted.size()) + of_file) / double(found.places.size()), place.key);
+    };
+    fs::path name = place.files.front().stem();
+    if (place.files.size() > 1) name = name.stem();  // of "floor.flat.exr"
+    converted.push_back(convert_lightmap(place, options, folder / name.concat(".exr"), share));
+  }
+  if (!found.single_file) write_converted_manifest(source, converted, options, folder);
+  return converted;
+}
+
+}  // namespace rnmbake

@@ -1,0 +1,194 @@
+#include "pipeline/study/encoding_study.h"
+
+#include "base/error.h"
+#include "base/text_table.h"
+#include "encoding/make_codec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+namespace {
+
+/// "zh3 K=2, 8 bits, mono".
+std::string label_of(const CodecOptions& codec) {
+  std::string label = codec.name;
+  if (codec.range > 0) label += fmt::format(" K={:g}", codec.range);
+  if (codec.bits > 0) label += fmt::format(", {} bits", codec.bits);
+  if (codec.mono) label += ", mono";
+  return label;
+}
+
+/// Three half floats for each plain layer; packed directions by their bits.
+int bytes_of(const CodecOptions& options, const Codec& codec) {
+  constexpr int half_colour = 6;
+  const int layers = static_cast<int>(codec.layers().size());
+  if (options.bits == 0) return layers * half_colour;
+  return half_colour + (layers - 1) * 3 * options.bits / 8;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f}", 100 * share);
+}
+
+/// Header and rows of the table, cells as text.
+std::vector<std::vector<std::string>> cells(const std::vector<EncodingErrors>& errors) {
+  std::vector<std::vector<std::string>> rows{{"encoding", "bytes"}};
+  for (const double limit : tilt_limits) rows.front().push_back(fmt::format("<= {:g}", limit));
+  rows.front().emplace_back("flat bias");
+  for (const EncodingErrors& one : errors) {
+    if (!one.unfit.empty()) continue;
+    std::vector<std::string> row{one.label, std::to_string(one.bytes)};
+    for (const double rms : one.rms) row.push_back(percent(rms));
+    row.push_back(fmt::format("{:+.1f}", 100 * one.flat_bias));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+struct EncodingStudy::Studied {
+  EncodingErrors errors;
+  std::unique_ptr<const Codec> codec;
+  std::array<double, tilt_limits.size()> squares{}, sums{};
+  double flat_sum = 0;
+
+  /// Sums over the normals of one light, each band by itself.
+  void add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat,
+           std::span<const Vec3> normals) {
+    std::vector<Vec3> layers(codec->layers().size());
+    (void)codec->encode(at_fed, layers);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Vec3 error = codec->decode(layers, normals[i]) - at_normals[i];
+      const double degrees = std::acos(std::clamp(double(normals[i].z), -1.0, 1.0)) * 180 / pi;
+      for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
+        if (degrees > tilt_limits[band] + 1e-3) continue;
+        squares[band] += double(error.dot(error));
+        sums[band] += double(error.x) + error.y + error.z;
+      }
+    }
+    const Vec3 error = codec->decode(layers, Vec3(0, 0, 1)) - flat;
+    flat_sum += double(error.x) + error.y + error.z;
+  }
+};
+
+EncodingStudy::EncodingStudy(const BasisSet& fed, std::vector<Vec3> normals) : normals_(std::move(normals)) {
+  for (const CodecOptions& options : encodings_to_study()) {
+    Studied& studied = studied_.emplace_back();
+    studied.errors.label = label_of(options);
+    studied.errors.codec = options;
+    try {
+      studied.codec = make_codec(options, fed);
+      studied.errors.bytes = bytes_of(options, *studied.codec);
+    } catch (const Error& error) {
+      studied.errors.unfit = error.what();
+    }
+  }
+}
+
+EncodingStudy::~EncodingStudy() = default;
+EncodingStudy::EncodingStudy(EncodingStudy&&) noexcept = default;
+
+void EncodingStudy::add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat) {
+  for (Studied& studied : studied_)
+    if (studied.codec) studied.add(at_fed, at_normals, flat, normals_);
+  flat_squares_ += double(flat.dot(flat));
+  flat_sum_ += double(flat.x) + flat.y + flat.z;
+  ++lights_;
+}
+
+void EncodingStudy::merge(const EncodingStudy& other) {
+  for (std::size_t i = 0; i < studied_.size(); ++i) {
+    for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
+      studied_[i].squares[band] += other.studied_[i].squares[band];
+      studied_[i].sums[band] += other.studied_[i].sums[band];
+    }
+    studied_[i].flat_sum += other.studied_[i].flat_sum;
+  }
+  flat_squares_ += other.flat_squares_;
+  flat_sum_ += other.flat_sum_;
+  lights_ += other.lights_;
+}
+
+std::vector<EncodingErrors> EncodingStudy::errors() const {
+  std::array<double, tilt_limits.size()> normals{};
+  for (const Vec3& normal : normals_) {
+    const double degrees = std::acos(std::clamp(double(normal.z), -1.0, 1.0)) * 180 / pi;
+    for (std::size_t band = 0; band < tilt_limits.size(); ++band)
+      if (degrees <= tilt_limits[band] + 1e-3) ++normals[band];
+  }
+  std::vector<EncodingErrors> all;
+  for (const Studied& studied : studied_) {
+    EncodingErrors errors = studied.errors;
+    if (errors.unfit.empty() && flat_squares_ > 0) {
+      for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
+        if (normals[band] == 0) continue;
+        errors.rms[band] = std::sqrt(studied.squares[band] / (normals[band] * flat_squares_));
+        errors.bias[band] = studied.sums[band] / (normals[band] * flat_sum_);
+      }
+      errors.flat_bias = studied.flat_sum / flat_sum_;
+    }
+    all.push_back(std::move(errors));
+  }
+  return all;
+}
+
+std::vector<CodecOptions> encodings_to_study() {
+  std::vector<CodecOptions> all;
+  for (const std::string& name : codec_names()) {
+    all.push_back({name});
+    if (name != "sh2" && name != "zh3" && name != "geomerics") continue;
+    for (const double range : {2.0, 4.0}) all.push_back({name, range, 8, false});
+    all.push_back({name, 2, 8, true});
+  }
+  return all;
+}
+
+std::string study_table(const std::vector<EncodingErrors>& errors) {
+  TextTable table;
+  for (const auto& row : cells(errors)) table.add(row);
+  std::ostringstream out;
+  table.write(out);
+  return out.str();
+}
+
+std::string study_markdown(const std::vector<EncodingErrors>& errors) {
+  std::string text;
+  bool is_header = true;
+  for (const auto& row : cells(errors)) {
+    for (const std::string& cell : row) text += "| " + cell + " ";
+    text += "|\n";
+    if (std::exchange(is_header, false)) {
+      for (std::size_t i = 0; i < row.size(); ++i) text += i == 0 ? "|---" : "|---:";
+      text += "|\n";
+    }
+  }
+  return text;
+}
+
+std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t lights) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const EncodingErrors& one : errors) {
+    nlohmann::json entry{{"encoding", one.codec.name},
+                         {"range", one.codec.range},
+                         {"bits", one.codec.bits},
+                         {"mono", one.codec.mono},
+                         {"label", one.label}};
+    if (one.unfit.empty()) {
+      entry.update(
+          {{"bytes", one.bytes}, {"rms", one.rms}, {"bias", one.bias}, {"flat_bias", one.flat_bias}});
+    } else {
+      entry["unfit"] = one.unfit;
+    }
+    list.push_back(std::move(entry));
+  }
+  return nlohmann::json{{"lights", lights}, {"tilt_limits", tilt_limits}, {"encodings", list}}.dump(2) + "\n";
+}
+
+}  // namespace rnmbake
