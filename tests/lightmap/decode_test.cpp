@@ -13,7 +13,7 @@
 namespace rnmbake {
 namespace {
 
-FloatImage filled(int width, int height, const Vec3& colour) {
+FloatImage of_colour(int width, int height, const Vec3& colour) {
   FloatImage image(width, height, 3);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -25,9 +25,9 @@ Lightmap lightmap(const std::array<Vec3, 3>& maps, const Vec3& flat, int width =
   Lightmap result;
   result.metadata.bases = rnm_set().directions;
   result.metadata.bases.push_back(flat_direction());
-  result.layers["flat"] = filled(width, height, flat);
+  result.layers["flat"] = of_colour(width, height, flat);
   for (std::size_t i = 0; i < 3; ++i)
-    result.layers[std::string(rnm_layers[i])] = filled(width, height, maps[i]);
+    result.layers[std::string(rnm_layers[i])] = of_colour(width, height, maps[i]);
   return result;
 }
 
@@ -112,7 +112,7 @@ TEST(Decode, OutputHasTheNormalMapsSizeAndSharesTheUvs) {
   Lightmap map = coloured();
   for (int y = 0; y < 2; ++y)
     std::ranges::fill(map.layers["rnm0"].texel(3, y), 9.0F);  // the right-hand column
-  NormalPicture normals{filled(8, 8, Vec3(0, 0, 1)), Green::y_up};
+  NormalPicture normals{of_colour(8, 8, Vec3(0, 0, 1)), Green::y_up};
   const Vec3 b0 = rnm_basis()[0];
   std::ranges::copy(std::array{b0.x, b0.y, b0.z}, normals.normals.texel(7, 0).begin());
   const FloatImage result = decode(map, normals, DecodeVariant::squared);
@@ -132,7 +132,8 @@ TEST(Decode, UncoveredTexelsStayOutOfTheLookup) {
   for (const char* name : {"rnm0", "rnm1", "rnm2"})
     for (int y = 0; y < 2; ++y)
       std::ranges::fill(map.layers[name].texel(2, y), std::numeric_limits<float>::quiet_NaN());
-  const FloatImage result = decode(map, {filled(16, 8, Vec3(0, 0, 1)), Green::y_up}, DecodeVariant::squared);
+  const FloatImage result =
+      decode(map, {of_colour(16, 8, Vec3(0, 0, 1)), Green::y_up}, DecodeVariant::squared);
   EXPECT_NEAR(result.texel(7, 4)[0], 0.788675, 1e-6);
 }
 

@@ -9,7 +9,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 struct Case {
   FloatImage image, coverage;
@@ -106,7 +106,7 @@ TEST(Dilate, NegativePassesDoNothing) {
 
 TEST(Dilate, NaNStaysWhereItIs) {
   FloatImage image(4, 1, 1), coverage(4, 1, 1);
-  image.data() = {2, not_a_number, 0, 0};
+  image.data() = {2, nan_value, 0, 0};
   coverage.data() = {1, 1, 0, 0};
   dilate(image, coverage, 4);
   EXPECT_TRUE(std::isnan(image.data()[1]));

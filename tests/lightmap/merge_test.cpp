@@ -16,7 +16,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float quiet_nan = std::numeric_limits<float>::quiet_NaN();
 
 /// A uniform sky over `width` x `height` texels, the last column not covered and full of rubbish.
 TargetBakes sky(int width, int height) {
@@ -114,8 +114,8 @@ TEST(Merge, NormalizingNeedsAllFour) {
 
 TEST(Merge, FaultsAreCountedAndOnlyRepairedOnRequest) {
   TargetBakes bakes = sky(9, 9);
-  bakes.bases[0].radiance.texel(1, 1)[0] = not_a_number;
-  bakes.bases[2].radiance.texel(1, 1)[0] = not_a_number;  // the same texel again: one
+  bakes.bases[0].radiance.texel(1, 1)[0] = quiet_nan;
+  bakes.bases[2].radiance.texel(1, 1)[0] = quiet_nan;  // the same texel again: one
   bakes.bases[1].radiance.texel(4, 4)[1] = std::numeric_limits<float>::infinity();
   std::ranges::fill(bakes.bases[3].radiance.texel(6, 6), 1000.0F);
   const MergedLightmap kept = merge(bakes, {.depth = Depth::full});
@@ -175,7 +175,7 @@ TEST(Merge, WhatDoesNotFitIsRefused) {
 
 TEST(HalfRange, LimitsAreExact) {
   FloatImage image(5, 1, 1);
-  image.data() = {65504, 65505, -65505, not_a_number, std::numeric_limits<float>::infinity()};
+  image.data() = {65504, 65505, -65505, quiet_nan, std::numeric_limits<float>::infinity()};
   EXPECT_EQ(clamp_to_half(image), 2U);
   EXPECT_EQ(image.data()[0], 65504);
   EXPECT_EQ(image.data()[1], 65504);

@@ -26,7 +26,7 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 
 /// A finished bake: its folder and what its manifest says.
-struct Baked {
+struct ContentBaked {
   fs::path folder;
   json manifest;
 
@@ -74,8 +74,9 @@ class ContentWithBlender : public testing::Test {
   }
 
   /// Bakes without an error; every lightmap covers something and holds finite values only.
-  static Baked bake(const std::string& name, const Words& flags, const std::string& scene = "content.blend") {
-    Baked baked{folder_->path() / name, {}};
+  static ContentBaked bake(const std::string& name, const Words& flags,
+                           const std::string& scene = "content.blend") {
+    ContentBaked baked{folder_->path() / name, {}};
     const ProcessResult result = bake_into(baked.folder, scene, flags);
     EXPECT_TRUE(result.succeeded()) << result.output;
     if (!result.succeeded()) return baked;
@@ -104,7 +105,7 @@ std::unique_ptr<TempFolder> ContentWithBlender::folder_;
 constexpr const char* recipes[] = {"receiver", "flat-normal-map"};
 
 /// Texels whose neighbours are all covered: both recipes see the same piece of the object there.
-struct Difference {
+struct BorderDifference {
   double mean = 0, standard_error = 0;
   std::size_t texels = 0;
 };
@@ -119,11 +120,11 @@ bool is_inside(const FloatImage& coverage, int x, int y) {
   return true;
 }
 
-Difference difference(const LayeredImage& a, const LayeredImage& b) {
+BorderDifference difference(const LayeredImage& a, const LayeredImage& b) {
   const FloatImage &first = a.find("")->pixels, &second = b.find("")->pixels;
   const FloatImage& coverage = a.find("coverage")->pixels;
   double sum = 0, squares = 0;
-  Difference result;
+  BorderDifference result;
   for (int y = 0; y < coverage.height(); ++y) {
     for (int x = 0; x < coverage.width(); ++x) {
       if (!is_inside(coverage, x, y)) continue;
@@ -140,7 +141,7 @@ Difference difference(const LayeredImage& a, const LayeredImage& b) {
 }
 
 TEST_F(ContentWithBlender, IsSelectedAsARenderShowsIt) {
-  const Baked baked = bake("selected", {"--resolution", "16", "--samples", "1", "--bases", "flat"});
+  const ContentBaked baked = bake("selected", {"--resolution", "16", "--samples", "1", "--bases", "flat"});
   const std::set<std::string> keys = baked.keys();
   EXPECT_EQ(keys.size(), 35U);
   for (const char* key :
@@ -155,11 +156,11 @@ TEST_F(ContentWithBlender, IsSelectedAsARenderShowsIt) {
 TEST_F(ContentWithBlender, HasTheSameFlatLightmapByBothRecipes) {
   const Words flags{"--resolution", "32",   "--samples",  "512",   "--dilate",  "0",
                     "--bases",      "flat", "--dispatch", "scene", "--exclude", "array"};
-  const Baked receiver = bake("agree_receiver", both(flags, "receiver"));
-  const Baked published = bake("agree_published", both(flags, "flat-normal-map"));
+  const ContentBaked receiver = bake("agree_receiver", both(flags, "receiver"));
+  const ContentBaked published = bake("agree_published", both(flags, "flat-normal-map"));
   ASSERT_EQ(receiver.keys(), published.keys());
   for (const std::string& key : receiver.keys()) {
-    const Difference found = difference(receiver.lightmap(key), published.lightmap(key));
+    const BorderDifference found = difference(receiver.lightmap(key), published.lightmap(key));
     ASSERT_GT(found.texels, 20U) << key;
     // Texels of one bake share their sampling pattern, so more than the standard error of independent ones.
     EXPECT_LE(std::abs(found.mean), 0.005) << key;
@@ -172,14 +173,14 @@ TEST_F(ContentWithBlender, SplitsByMaterialAndLoosePart) {
     const Words small{"--resolution", "32", "--samples", "16", "--bases", "flat", "--dilate", "0"};
     Words flags = both(small, recipe);
     flags.insert(flags.end(), {"--objects", "two_slots_*,several_slots,text", "--split", "material"});
-    const Baked slots = bake(std::string("material_") + recipe, flags);
+    const ContentBaked slots = bake(std::string("material_") + recipe, flags);
     EXPECT_EQ(slots.keys(), (std::set<std::string>{"several_slots/grey", "several_slots/red",
                                                    "several_slots/slot1", "text/slot0", "two_slots_1/grey",
                                                    "two_slots_1/red", "two_slots_2/grey", "two_slots_2/red"}))
         << recipe;
     flags = both(small, recipe);
     flags.insert(flags.end(), {"--objects", "pieces", "--split", "loose"});
-    const Baked parts = bake(std::string("loose_") + recipe, flags);
+    const ContentBaked parts = bake(std::string("loose_") + recipe, flags);
     ASSERT_EQ(parts.keys().size(), 3U) << recipe;
     for (const std::string& key : parts.keys())
       EXPECT_NEAR(parts.find(key)->at("coverage").get<double>(), 0.3, 0.03) << recipe << key;
@@ -190,12 +191,12 @@ TEST_F(ContentWithBlender, IsThePartOfTheWholeWhenSplit) {
   for (const char* recipe : recipes) {
     Words flags{"--recipe", recipe, "--resolution", "32", "--samples", "64",
                 "--bases",  "flat", "--dilate",     "0",  "--objects", "two_slots_1,pieces"};
-    const Baked whole = bake(std::string("whole_") + recipe, flags);
+    const ContentBaked whole = bake(std::string("whole_") + recipe, flags);
     flags.insert(flags.end(), {"--split", "material"});
-    const Baked split = bake(std::string("split_") + recipe, flags);
+    const ContentBaked split = bake(std::string("split_") + recipe, flags);
     for (const auto& [part, object] : std::map<std::string, std::string>{
              {"two_slots_1/red", "two_slots_1"}, {"two_slots_1/grey", "two_slots_1"}}) {
-      const Difference found = difference(split.lightmap(part), whole.lightmap(object));
+      const BorderDifference found = difference(split.lightmap(part), whole.lightmap(object));
       ASSERT_GT(found.texels, 20U) << part;
       EXPECT_LE(std::abs(found.mean), 4 * found.standard_error + 0.005) << recipe << part;
     }
@@ -204,7 +205,7 @@ TEST_F(ContentWithBlender, IsThePartOfTheWholeWhenSplit) {
 
 TEST_F(ContentWithBlender, IsDispatchedInEveryWay) {
   for (const char* recipe : recipes) {
-    std::vector<Baked> ways;
+    std::vector<ContentBaked> ways;
     for (const char* dispatch : {"basis", "object", "scene"}) {
       ways.push_back(bake(std::string(recipe) + dispatch,
                           {"--recipe", recipe, "--dispatch", dispatch, "--resolution", "32", "--samples",
@@ -213,7 +214,7 @@ TEST_F(ContentWithBlender, IsDispatchedInEveryWay) {
     }
     for (const char* key : {"mirrored", "tube"}) {
       for (const std::size_t other : {1U, 2U}) {
-        const Difference found = difference(ways[0].lightmap(key), ways[other].lightmap(key));
+        const BorderDifference found = difference(ways[0].lightmap(key), ways[other].lightmap(key));
         ASSERT_GT(found.texels, 20U) << recipe << key;
         EXPECT_LE(std::abs(found.mean), 4 * found.standard_error + 0.005) << recipe << key;
       }
@@ -223,9 +224,10 @@ TEST_F(ContentWithBlender, IsDispatchedInEveryWay) {
 
 TEST_F(ContentWithBlender, HasAFileForEachBasisAndFrames) {
   for (const char* recipe : recipes) {
-    const Baked baked = bake(std::string("files_") + recipe,
-                             {"--recipe", recipe, "--layout", "files", "--frames", "--normalize", "flat",
-                              "--resolution", "16", "--samples", "4", "--objects", "child,scatter/*,text"});
+    const ContentBaked baked =
+        bake(std::string("files_") + recipe,
+             {"--recipe", recipe, "--layout", "files", "--frames", "--normalize", "flat", "--resolution",
+              "16", "--samples", "4", "--objects", "child,scatter/*,text"});
     ASSERT_EQ(baked.keys().size(), 6U);
     for (const std::string& key : baked.keys()) {
       ASSERT_EQ(baked.find(key)->at("files").size(), 7U) << key;  // flat, rnm0-2, coverage, tangent, normal
@@ -255,7 +257,7 @@ TEST_F(ContentWithBlender, TakesBasesFromAFileAndSettingsByObject) {
          "[bake]\nresolution = 16\nsamples = 4\nbasis = \"basis.toml\"\n"
          "[[override]]\nobjects = \"shared_2\"\nresolution = 24\nsamples = 2\nflip_green = true\n";
   for (const char* recipe : recipes) {
-    const Baked baked = bake(std::string("basis_") + recipe, {"--recipe", recipe}, "project.toml");
+    const ContentBaked baked = bake(std::string("basis_") + recipe, {"--recipe", recipe}, "project.toml");
     ASSERT_EQ(baked.keys(), (std::set<std::string>{"shared_1", "shared_2", "tube"}));
     EXPECT_EQ(baked.find("shared_1")->at("width"), 16);
     EXPECT_EQ(baked.find("shared_2")->at("width"), 24);

@@ -24,23 +24,23 @@ using nlohmann::json;
 
 constexpr int side = 32, samples = 64, bounces = 8;
 
-struct Baked {
+struct PlainBaked {
   std::string name;
   LayeredImage lightmap;
 };
 
-struct Difference {
+struct PlainDifference {
   std::size_t texels = 0;
   double mean = 0, plain_mean = 0, standard_error = 0;
 };
 
 /// Over the texels that both cover, mean of the three colours.
-Difference compare(const LayeredImage& lightmap, const std::string& plain_bytes) {
+PlainDifference compare(const LayeredImage& lightmap, const std::string& plain_bytes) {
   const FloatImage& flat = lightmap.find("")->pixels;
   const FloatImage& coverage = lightmap.find("coverage")->pixels;
   std::vector<float> plain(plain_bytes.size() / sizeof(float));
   std::memcpy(plain.data(), plain_bytes.data(), plain_bytes.size());
-  Difference result;
+  PlainDifference result;
   double squares = 0;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
@@ -79,7 +79,7 @@ class PlainBakeWithBlender : public testing::Test {
   }
 
   /// The objects with the most covered texels, by rnmbake; leaves the scene with its UVs beside them.
-  std::vector<Baked> bake(const fs::path& scene, std::size_t most) {
+  std::vector<PlainBaked> bake(const fs::path& scene, std::size_t most) {
     const fs::path folder = file("baked");
     const ProcessResult result = run_words({RNMBAKE_BINARY,
                                             "bake",
@@ -110,7 +110,7 @@ class PlainBakeWithBlender : public testing::Test {
     std::stable_sort(objects.begin(), objects.end(), [](const json& a, const json& b) {
       return a["texels"]["covered"].get<int>() > b["texels"]["covered"].get<int>();
     });
-    std::vector<Baked> baked;
+    std::vector<PlainBaked> baked;
     for (const json& object : objects) {
       if (baked.size() == most) break;
       baked.push_back({object["object"], read_image(folder / object["files"][0].get<std::string>())});
@@ -121,7 +121,7 @@ class PlainBakeWithBlender : public testing::Test {
   /// Every object's mean must agree within four standard errors of the paired difference, or 0.3 % where
   /// noise is less than that: jittered texels at chart edges see slightly other points.
   void agree(const fs::path& scene, std::size_t most) {
-    const std::vector<Baked> baked = bake(lambert(scene), most);
+    const std::vector<PlainBaked> baked = bake(lambert(scene), most);
     ASSERT_FALSE(baked.empty());
     const fs::path folder = file("plain");
     fs::create_directory(folder);
@@ -139,12 +139,12 @@ class PlainBakeWithBlender : public testing::Test {
                                   std::to_string(side),
                                   std::to_string(samples),
                                   std::to_string(bounces)};
-    for (const Baked& one : baked) argv.push_back(one.name);
+    for (const PlainBaked& one : baked) argv.push_back(one.name);
     const ProcessResult plain = run_words(std::move(argv));
     ASSERT_TRUE(plain.succeeded()) << plain.output;
     int compared = 0;
     for (std::size_t i = 0; i < baked.size(); ++i) {
-      const Difference difference =
+      const PlainDifference difference =
           compare(baked[i].lightmap, read_text(folder / (std::to_string(i) + ".f32")));
       EXPECT_GT(difference.texels, 50U) << baked[i].name;
       if (difference.plain_mean == 0) continue;  // black: Blender divides by the albedo and returns nothing

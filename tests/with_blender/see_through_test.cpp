@@ -28,11 +28,11 @@ fs::path run(const std::string& command, const fs::path& scene, const fs::path& 
   return out;
 }
 
-struct Difference {
+struct ChannelDifference {
   double mean = 0, standard_error = 0;
 };
 
-Difference difference(const FloatImage& a, const FloatImage& b, std::size_t channel) {
+ChannelDifference difference(const FloatImage& a, const FloatImage& b, std::size_t channel) {
   double sum = 0, squares = 0;
   const auto count = double(a.texels());
   for (int y = 0; y < a.height(); ++y) {

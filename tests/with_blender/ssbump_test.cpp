@@ -161,7 +161,7 @@ HeightField waves(int side) {
   return field;
 }
 
-constexpr int samples = 1024;
+constexpr int mesh_samples = 1024;
 
 SsbumpWeights bake(const HeightField& field, SsbumpBlenderOptions::Lights lights) {
   const ResolvedConfig config = resolve({}, {}, {});
@@ -169,7 +169,7 @@ SsbumpWeights bake(const HeightField& field, SsbumpBlenderOptions::Lights lights
   BlenderSession session(config, blender);
   SsbumpBlenderOptions options;
   options.lights = lights;
-  options.samples = samples;
+  options.samples = mesh_samples;
   return bake_height_map(session, field, options);
 }
 
@@ -184,7 +184,7 @@ double squared_errors(double share, double expected, double draws) {
 /// Cycles draws from the cosine lobe about an axis; a weight is a share of what that sends above the horizon.
 double draws_of(std::size_t channel) {
   const double up = channel < 3 ? double{rnm_basis()[channel].z} : 1;
-  return samples * (1 + up) / 2;
+  return mesh_samples * (1 + up) / 2;
 }
 
 void expect_the_horizon(const HeightField& field) {

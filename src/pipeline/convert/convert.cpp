@@ -118,13 +118,12 @@ class Conversion {
  public:
   Conversion(const LightmapPlace& place, const ConvertOptions& options)
       : options_(options),
-        source_(place),
+        source_(opened(place, options)),
         directions_{source_.file(), source_.metadata().bases},
         codec_(target_codec(options.codec, directions_)),
         texels_(source_.metadata(), directions_),
         frames_(source_.metadata().green) {
     const LightmapMetadata& metadata = source_.metadata();
-    if (const auto why = convert_obstacle(metadata)) refuse(*why);
     from_world_ = metadata.space == "world";
     if (metadata.normalize == Normalize::flat && options.codec.name != "flat" &&
         options.codec.name != "rnm-vrad")
@@ -162,8 +161,16 @@ class Conversion {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& why) const {
-    fail(ExitCode::unsupported, "{} cannot become '{}': {}", source_.file(), options_.codec.name, why);
+  [[noreturn]] static void refuse(const std::string& file, const ConvertOptions& options,
+                                  const std::string& why) {
+    fail(ExitCode::unsupported, "{} cannot become '{}': {}", file, options.codec.name, why);
+  }
+  [[noreturn]] void refuse(const std::string& why) const { refuse(source_.file(), options_, why); }
+
+  static LightmapRows opened(const LightmapPlace& place, const ConvertOptions& options) {
+    LightmapRows source(place);
+    if (const auto why = convert_obstacle(source.metadata())) refuse(source.file(), options, *why);
+    return source;
   }
 
   /// The band from `begin` on; frames are known before the band above them is converted.

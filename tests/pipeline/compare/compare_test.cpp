@@ -21,7 +21,7 @@ namespace {
 
 constexpr int picture_size = 16;
 
-struct Lightmap {
+struct WrittenLightmap {
   std::string key;
   float value = 1;
   int seed = 1, size = picture_size;
@@ -31,7 +31,7 @@ struct Lightmap {
   std::function<void(LayeredImage&)> spoil = {};
 };
 
-LayeredImage lightmap_of(const Lightmap& wanted) {
+LayeredImage lightmap_of(const WrittenLightmap& wanted) {
   LightmapMetadata metadata;
   metadata.bases = rnm_set().directions;
   metadata.bases.insert(metadata.bases.begin(), flat_direction());
@@ -59,10 +59,10 @@ class Compare : public testing::Test {
  protected:
   [[nodiscard]] std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
 
-  CompareSide folder(const std::string& name, const std::vector<Lightmap>& lightmaps) const {
+  CompareSide folder(const std::string& name, const std::vector<WrittenLightmap>& lightmaps) const {
     make_folders(at(name));
     nlohmann::json objects = nlohmann::json::array();
-    for (const Lightmap& lightmap : lightmaps) {
+    for (const WrittenLightmap& lightmap : lightmaps) {
       const std::string file = lightmap.key + ".exr";
       write_exr(at(name) / file, lightmap_of(lightmap), Depth::full);
       objects.push_back({{"key", lightmap.key}, {"files", {file}}, {"status", "baked"}});
@@ -157,7 +157,7 @@ TEST_F(Compare, OneFileForEachLayerIsTheSame) {
 }
 
 TEST_F(Compare, CountsWhatBothCoverAndWhatIsSound) {
-  Lightmap left{"floor", 2}, right{"floor", 1};
+  WrittenLightmap left{"floor", 2}, right{"floor", 1};
   left.spoil = [](LayeredImage& image) { image.layers.back().pixels.texel(0, 0)[0] = 0; };
   right.spoil = [](LayeredImage& image) {
     image.layers.back().pixels.texel(1, 0)[0] = 0;
@@ -176,7 +176,7 @@ TEST_F(Compare, CountsWhatBothCoverAndWhatIsSound) {
 }
 
 TEST_F(Compare, NonFiniteTexelsAreCountedApart) {
-  Lightmap left{"floor", 1};
+  WrittenLightmap left{"floor", 1};
   left.spoil = [](LayeredImage& image) {
     image.layers[1].pixels.texel(3, 3)[1] = std::numeric_limits<float>::quiet_NaN();
   };
@@ -211,7 +211,8 @@ TEST_F(Compare, HalvesMustDifferInTheirSeedAndHoldTheSame) {
 
 TEST_F(Compare, RefusesWhatDoesNotFit) {
   const auto b = folder("b", {{"floor"}});
-  const auto refused = [&](const std::string& name, const Lightmap& lightmap, const std::string& word) {
+  const auto refused = [&](const std::string& name, const WrittenLightmap& lightmap,
+                           const std::string& word) {
     expect_refused({folder(name, {lightmap}), b}, ExitCode::invalid_input, {"'floor'", word});
   };
   refused("size", {.key = "floor", .size = 8}, "the size is 8x8");

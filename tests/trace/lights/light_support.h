@@ -16,6 +16,9 @@
 
 namespace rnmbake {
 
+inline const Vec3 up(0, 0, 1), tilted = Vec3(0.8F, -0.3F, 0.5F).normalized();
+inline const Vec3 nowhere(0, 0, 0);  // no normal: light for a point without a surface
+
 /// Lamps, triangles and a world, with the Lights of them.
 struct LitScene {
   DiffuseScene diffuse_scene;

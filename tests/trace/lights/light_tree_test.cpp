@@ -1,5 +1,7 @@
 #include "trace/lights/light_tree.h"
 
+#include "trace/lights/light_support.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,8 +11,6 @@
 
 namespace rnmbake {
 namespace {
-
-const Vec3 up(0, 0, 1), nowhere(0, 0, 0);
 
 class Dice {
  public:

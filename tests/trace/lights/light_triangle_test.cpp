@@ -11,8 +11,6 @@
 namespace rnmbake {
 namespace {
 
-const Vec3 up(0, 0, 1);
-
 TEST(LightTriangleTest, GlowingTrianglesShineBothWays) {
   LitScene scene;
   const Vec3 a(-0.5F, -0.6F, 1), b(1.5F, 0, 0.8F), c(0, 1, 1.4F);

@@ -10,8 +10,6 @@
 namespace rnmbake {
 namespace {
 
-const Vec3 up(0, 0, 1);
-
 Lamp read_one(const LitScene& scene, const std::string& version) {
   const std::vector<Lamp> lamps = read_lamps(scene.diffuse_scene.survey, version);
   EXPECT_EQ(lamps.size(), 1U);

@@ -14,9 +14,6 @@
 namespace rnmbake {
 namespace {
 
-const Vec3 up(0, 0, 1);
-const Vec3 tilted = Vec3(0.8F, -0.3F, 0.5F).normalized();
-
 TEST(LightsTest, NothingThatGlowsIsEmpty) {
   LitScene scene;
   scene.triangle(scene.material({0, 0, 0}), {0, 0, 1}, {1, 0, 1}, {0, 1, 1});

@@ -11,9 +11,6 @@
 namespace rnmbake {
 namespace {
 
-const Vec3 up(0, 0, 1), nowhere(0, 0, 0);
-const Vec3 tilted = Vec3(0.8F, -0.3F, 0.5F).normalized();
-
 LitScene pictured(int width, int height, const std::function<float(int x, int y)>& value) {
   LitScene scene;
   Texture picture{width, height, {}};
