@@ -1,5 +1,5 @@
-// geomerics.glsl - the numbers of sh2.glsl as a lobe that is never negative.
-// Geomerics (Hazel), "Reconstructing Diffuse Lighting from Spherical Harmonic Data": R0 = a, R1 = v / 2.
+// geomerics.glsl - the numbers of sh2.glsl as a power of the half cosine, never negative where |v| <= 2 a.
+// Geomerics (Hazel), "Reconstructing Diffuse Lighting from Spherical Harmonic Data" (2015): R0 = a, R1 = v / 2.
 // Fed with a plain fit to a hemisphere it is 14 % too dark: layers must be refitted for it (`geomerics`).
 #ifndef RNMBAKE_GEOMERICS
 #define RNMBAKE_GEOMERICS
@@ -10,11 +10,10 @@
 float geomerics_decode1(float a, vec3 v, vec3 n)
 {
     float size = length(v);
-    float r = min(0.5 * size / max(a, 1e-6), 1.0);
+    if (a <= 0.0) return a;
+    float r = 0.5 * size / max(a, 1e-6);
     float q = clamp(0.5 + 0.5 * dot(v, n) / max(size, 1e-6), 0.0, 1.0);
-    float p = 1.0 + 2.0 * r;
-    float even = (1.0 - r) / (1.0 + r);
-    return a * (even + (1.0 - even) * (p + 1.0) * pow(q, p));
+    return a * (1.0 - r) / (1.0 + r) + 2.0 * size * pow(q, 1.0 + 2.0 * r);
 }
 
 vec3 geomerics_decode(vec3 l0, vec3 l1x, vec3 l1y, vec3 l1z, vec3 n)

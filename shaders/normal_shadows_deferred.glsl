@@ -21,8 +21,8 @@ float normal_shadow_deferred(RNM_SAMPLER2D(normals), RNM_SAMPLER2D(depths), vec2
     for (int i = 1; i <= steps; ++i) {
         float t = (float(i) - jitter) / float(steps);
         vec2 place = uv + t * walk * light.xy;
-        float near = clamp(1.0 - abs(RNM_SAMPLE(depths, place).x - depth) / depth_range, 0.0, 1.0);
-        slope -= near * dot(light, normal_map_unpack(RNM_SAMPLE(normals, place).xyz, 1.0));
+        float counts = clamp(1.0 - abs(RNM_SAMPLE(depths, place).x - depth) / depth_range, 0.0, 1.0);
+        slope -= counts * dot(light, normal_map_unpack(RNM_SAMPLE(normals, place).xyz, 1.0));
         if (slope > steepest) {
             shadow += hardness * (1.0 - t);
             steepest = slope;

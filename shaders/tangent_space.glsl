@@ -23,10 +23,10 @@ vec3 normal_map_unpack2(vec2 texel, float green)
     return vec3(xy, sqrt(max(1.0 - dot(xy, xy), 0.0)));
 }
 
-// sign: of the tangent's fourth component (MikkTSpace).
-vec3 tangent_to_world(vec3 n, vec3 tangent, float sign, vec3 normal)
+// handedness: the sign in the tangent's fourth component (MikkTSpace).
+vec3 tangent_to_world(vec3 n, vec3 tangent, float handedness, vec3 normal)
 {
-    return normalize(n.x * tangent + n.y * sign * cross(normal, tangent) + n.z * normal);
+    return normalize(n.x * tangent + n.y * handedness * cross(normal, tangent) + n.z * normal);
 }
 
 // Coefficients of sh3.glsl for the other way of y: those that are odd in it change their sign.

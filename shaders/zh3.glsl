@@ -1,6 +1,7 @@
 // zh3.glsl - the numbers of sh2.glsl with a quadratic lobe guessed from them.
 // Roughton, Sloan, Silvennoinen, Iwanicki, Shirley, "ZH3: Quadratic Zonal Harmonics" (i3D 2024).
 // Fed with a plain fit to a hemisphere it is too bright: layers must be refitted for it (`zh3`).
+// The result may be negative: clamp it.
 #ifndef RNMBAKE_ZH3
 #define RNMBAKE_ZH3
 #include "rnmbake_types.glsl"
@@ -10,10 +11,10 @@
 float zh3_decode1(float a, vec3 v, vec3 n)
 {
     float size = length(v);
-    float rho = min(0.8660254 * size / max(a, 1e-6), 1.7320508);
+    float rho = a > 0.0 ? min(0.8660254 * size / max(a, 1e-6), 1.7320508) : 0.0;
     float along = dot(v, n) / max(size, 1e-6);
     float lobe = 0.27950850 * a * rho * (0.08 + 0.6 * rho) * (3.0 * along * along - 1.0);
-    return max(a + dot(v, n) + lobe, 0.0);
+    return a + dot(v, n) + lobe;
 }
 
 vec3 zh3_decode(vec3 l0, vec3 l1x, vec3 l1y, vec3 l1z, vec3 n)
