@@ -29,12 +29,10 @@ vec3 tangent_to_world(vec3 n, vec3 tangent, float handedness, vec3 normal)
     return normalize(n.x * tangent + n.y * handedness * cross(normal, tangent) + n.z * normal);
 }
 
-// Coefficients of sh3.glsl for the other way of y: those that are odd in it change their sign.
-void sh3_flip_green(inout vec3 sh[9])
+// The i-th coefficient of sh3.glsl for the other way of y: those that are odd in it change their sign.
+vec3 sh3_flip_green(vec3 coefficient, int i)
 {
-    sh[1] = -sh[1];
-    sh[4] = -sh[4];
-    sh[5] = -sh[5];
+    return i == 1 || i == 4 || i == 5 ? -coefficient : coefficient;
 }
 
 #endif

@@ -36,9 +36,10 @@ foreach(CHECK keys gltf)
   set_tests_properties(scripts.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
 endforeach()
 
-# The shaders, by glslang.
+# The shaders, and what the command makes of them, by glslang.
 add_test(NAME shaders.compile
-  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/shaders/compile_check.py)
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/shaders/compile_check.py
+          --binary $<TARGET_FILE:rnmbake>)
 set_tests_properties(shaders.compile PROPERTIES LABELS unit TIMEOUT 300)
 
 # Bad input through the real program and a real Blender: one test for each class of bad_input/*_check.py.

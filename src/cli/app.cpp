@@ -15,6 +15,7 @@
 #include "cli/inspect.h"
 #include "cli/reference.h"
 #include "cli/render.h"
+#include "cli/shaders.h"
 #include "cli/ssbump/nms.h"
 #include "cli/ssbump/ssbump.h"
 #include "cli/study.h"
@@ -55,6 +56,7 @@ constexpr const char* examples =
     "  rnmbake render hall.blend --lightmaps lightmaps -o view.png\n"
     "  rnmbake decode lightmaps/floor.exr --normal n.png -o lit.exr\n"
     "  rnmbake ssbump bricks_height.png -o bricks_ssbump.png\n"
+    "  rnmbake shaders --engine unity sh2 -o Assets     how a shader decodes it\n"
     "\n"
     "rnmbake COMMAND --help explains a command. Exit codes: 0 ok, 1 usage, 2 file, 3 scene content,\n"
     "4 no usable Blender, 5 unsupported, 6 some objects failed, 7 threshold exceeded, 8 locked.";
@@ -117,6 +119,11 @@ constexpr const char* about_nms =
     "surface:\n"
     "--check says how far they are from that.";
 
+constexpr const char* about_shaders =
+    "\n\nPrints GLSL or HLSL functions that decode what rnmbake writes: lightmaps in each encoding,\n"
+    "self-shadowed bump maps, shadows out of normal maps. --engine says for whom: the language, the file's\n"
+    "ending, and functions with the names that its materials have.";
+
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
     "the\n"
@@ -145,6 +152,7 @@ const std::vector<Command>& commands() {
       {"study", add_study_command},
       {"ssbump", add_ssbump_command, about_ssbump},
       {"nms", add_nms_command, about_nms},
+      {"shaders", add_shaders_command, about_shaders},
   };
   return all;
 }

@@ -20,7 +20,7 @@ constexpr std::array<ShaderEngine, 8> engines{{
     {"unreal", "Unreal (HLSL), in a custom node", Dialect::hlsl, ".hlsl", "", true},
     {"threejs", "three.js (WebGL 2)", Dialect::glsl, ".glsl", "threejs.glsl"},
     {"playcanvas", "PlayCanvas (WebGL 2)", Dialect::glsl, ".glsl", "playcanvas.glsl"},
-    {"source", "Source (HLSL of Direct3D 9)", Dialect::hlsl9, ".h", "source.hlsl"},
+    {"source", "Source (HLSL of Direct3D 9)", Dialect::hlsl9, ".h", ""},
 }};
 
 /// Without its guard, which would leave a second struct of the same shader empty.
@@ -36,8 +36,8 @@ std::string without_guard(const std::string& text) {
 }
 
 constexpr std::string_view struct_about =
-    "// The code of a custom node begins with this struct; the normal has y down in Unreal, so flip its y.\n"
-    "// It ends with a line of yours: return rnmbake.rnm_decode_squared(Rnm0, Rnm1, Rnm2, N);\n";
+    "// The code of a custom node begins with this struct and ends with a line of yours, such as:\n"
+    "// return rnmbake.rnm_decode_squared(Rnm0, Rnm1, Rnm2, N);\n";
 
 }  // namespace
 

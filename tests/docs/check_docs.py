@@ -5,7 +5,7 @@
 
 Links lead somewhere; every flag exists; docs/README.md lists every page; src/README.md has the floors that
 tools/dev/floors.py enforces; blender_scripts/README.md names every entry script; files and folders that comments name
-are there.
+are there; snippets of shaders are those of shaders/.
 """
 
 import argparse
@@ -216,6 +216,21 @@ class Documentation(unittest.TestCase):
         self.assertGreater(len(found), 300)
         self.assertEqual([f"{file.relative_to(ROOT)}:{number}: {path}" for file, number, path in found
                           if not is_there(path, file.parent)], [])
+
+    def test_shaders_shown_are_those_of_their_files(self):
+        snippets = load(ROOT / "tests/docs/shader_snippets.py")
+        fences = 0
+        for page in pages():
+            text = load_text(page)
+            shown = list(snippets.SNIPPET.finditer(text))
+            fences += len(shown)
+            with self.subTest(page.relative_to(ROOT)):
+                self.assertEqual(len(snippets.FENCE.findall(text)), len(shown), "a shader without its source file")
+            for snippet in shown:
+                with self.subTest(page.relative_to(ROOT), functions=snippet["names"]):
+                    self.assertEqual(snippet["code"], snippets.expected_code(snippet, self.binary),
+                                     "python3 tests/docs/shader_snippets.py --binary BINARY rewrites it")
+        self.assertGreater(fences, 3)
 
     def test_index_lists_every_page(self):
         index = (ROOT / "docs/README.md").read_text(encoding="utf-8")
