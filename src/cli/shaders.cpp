@@ -40,8 +40,7 @@ void write_list() {
 void write_files(const ShadersOptions& options, const ShaderEngine& engine) {
   std::vector<std::string> names;
   for (const std::string& name : options.names) names.push_back(shader_named(name).name);
-  if (names.empty())
-    for (const ShaderFile& file : shader_files()) names.push_back(file.name);
+  if (names.empty()) names = shaders_of(engine);
   make_folders(options.output);
   for (const std::string& name : names) {
     const auto file = options.output / fmt::format("rnmbake_{}{}", name, engine.ending);

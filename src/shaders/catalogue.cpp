@@ -73,10 +73,10 @@ const std::vector<ShaderFile>& shader_files() {
   return files;
 }
 
-std::string_view embedded_shader(std::string_view path) {
+std::optional<std::string_view> embedded_shader(std::string_view path) {
   const auto& all = embedded_shaders();
   const auto found = std::ranges::find_if(all, [&](const auto& file) { return file.first == path; });
-  if (found == all.end()) fail(ExitCode::io, "shaders/{} is not in this build of rnmbake", path);
+  if (found == all.end()) return std::nullopt;
   return found->second;
 }
 

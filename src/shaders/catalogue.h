@@ -1,6 +1,7 @@
 // shaders/catalogue.h - the shader files of shaders/, which travel inside the binary, and what each needs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,8 @@ struct ShaderFile {
 /// In alphabetical order.
 [[nodiscard]] const std::vector<ShaderFile>& shader_files();
 
-/// The text of a file below shaders/, by its path there; throws Error(io) where none was embedded.
-[[nodiscard]] std::string_view embedded_shader(std::string_view path);
+/// The text of a file below shaders/, by its path there; nothing where there is no such file.
+[[nodiscard]] std::optional<std::string_view> embedded_shader(std::string_view path);
 
 /// The file of a name, or of an encoding's name where several share a file ("h6": hbasis). Throws
 /// Error(usage) with the nearest name where there is none.

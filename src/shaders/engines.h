@@ -24,7 +24,11 @@ struct ShaderEngine {
 /// Throws Error(usage) with the nearest name where there is none.
 [[nodiscard]] const ShaderEngine& engine_named(const std::string& name);
 
-/// One text of these shaders and all that they need, ready to be included. No names: all shaders.
+/// Names of the shaders that the engine's language has.
+[[nodiscard]] std::vector<std::string> shaders_of(const ShaderEngine& engine);
+
+/// One text of these shaders and all that they need, ready to be included. No names: all that the language
+/// has. Throws Error(unsupported) where it has not all that were asked for.
 [[nodiscard]] std::string shader_text(const ShaderEngine& engine, const std::vector<std::string>& names);
 
 }  // namespace rnmbake

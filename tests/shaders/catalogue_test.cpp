@@ -73,6 +73,7 @@ TEST(Dialect, SamplersAreThoseOfTheLanguage) {
 
 TEST(Engines, NoMacroOfThePreludeIsLeft) {
   for (const ShaderEngine& engine : shader_engines()) {
+    if (engine.dialect == Dialect::wgsl) continue;
     const std::string text = shader_text(engine, {});
     EXPECT_EQ(times(text, "RNM_"), 0U) << engine.name;
     EXPECT_EQ(times(text, "vec3 rnm_decode_squared("), engine.dialect == Dialect::glsl ? 1U : 0U)
@@ -80,6 +81,19 @@ TEST(Engines, NoMacroOfThePreludeIsLeft) {
     EXPECT_EQ(times(text, "float3 rnm_decode_squared("), engine.dialect == Dialect::glsl ? 0U : 1U)
         << engine.name;
   }
+}
+
+/// Every function of a WGSL file has its GLSL namesake.
+TEST(Engines, WgslHasSomeOfTheFunctions) {
+  const ShaderEngine& bevy = engine_named("bevy");
+  const std::string text = shader_text(bevy, {}), glsl = shader_text(engine_named("glsl"), {});
+  EXPECT_EQ(shaders_of(bevy), (std::vector<std::string>{"rnm", "sh2", "ssbump", "zh3"}));
+  EXPECT_GE(times(text, "\nfn "), 12U);
+  for (auto place = text.find("\nfn "); place != std::string::npos; place = text.find("\nfn ", place + 1)) {
+    const std::string name = text.substr(place + 4, text.find('(', place) - place - 4);
+    EXPECT_GE(times(glsl, " " + name + "("), 1U) << name;
+  }
+  EXPECT_THROW((void)shader_text(bevy, {"sh3"}), Error);
 }
 
 TEST(Engines, UnrealGetsAStructWithoutGuards) {

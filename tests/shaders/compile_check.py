@@ -35,6 +35,7 @@ ENGINES = {  # and the languages that its text must be; Godot's is a dialect of 
     "unreal": ["HLSL"],
     "threejs": ["ESSL 3.00"],
     "playcanvas": ["ESSL 3.00"],
+    "bevy": [],  # WGSL, which glslang does not know
     "source": ["HLSL"],  # without samplers: glslang does not know those of Direct3D 9
 }
 
