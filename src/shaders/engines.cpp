@@ -81,8 +81,8 @@ std::string shader_text(const ShaderEngine& engine, const std::vector<std::strin
   for (const ShaderFile* file : with_needs(names.empty() ? shaders_of(engine) : names)) {
     const auto part = text_for(engine, *file);
     if (!part) {
-      fail(ExitCode::unsupported, "shader '{}' is not written for --engine {}; those that are: {}", file->name,
-           engine.name, fmt::join(shaders_of(engine), ", "));
+      fail(ExitCode::unsupported, "shader '{}' is not written for --engine {}; those that are: {}",
+           file->name, engine.name, fmt::join(shaders_of(engine), ", "));
     }
     text += *part + "\n";
   }
