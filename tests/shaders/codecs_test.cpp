@@ -1,0 +1,70 @@
+// What codecs of src/encoding/ write, decoded by shader and by codec.
+#include "encoding/basis_set.h"
+#include "encoding/make_codec.h"
+#include "shader_runs.h"
+
+#include <algorithm>
+
+namespace rnmbake {
+namespace {
+
+struct CodecShader {
+  CodecOptions options;
+  std::string shader;
+  std::string call;  // a function and all arguments but the layers, which at(0), at(1), ... stand for, and n
+};
+
+BasisSet flat_and_rnm() {
+  BasisSet set = rnm_set();
+  set.directions.insert(set.directions.begin(), flat_direction());
+  return set;
+}
+
+/// A few far lights and an even sky: E/pi at each direction of the set.
+std::vector<Vec3> lit(RandomVectors& random, const BasisSet& set) {
+  std::vector<Vec3> irradiance(set.directions.size(), Vec3(0));
+  const Vec3 sky = random.within(0.1F, 1);
+  for (std::size_t i = 0; i < irradiance.size(); ++i)
+    irradiance[i] = sky * ((1 + set.directions[i].direction.z) / 2);
+  for (int light = 0; light < 3; ++light) {
+    const Vec3 towards = random.normal_above(), colour = random.within(0, 2);
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+      irradiance[i] += colour * std::max(0.0F, towards.dot(set.directions[i].direction));
+  }
+  return irradiance;
+}
+
+class CodecShaders : public testing::TestWithParam<CodecShader> {};
+
+TEST_P(CodecShaders, DecodeAsTheCodecDoes) {
+  const BasisSet set = flat_and_rnm();
+  const auto codec = make_codec(GetParam().options, set);
+  const std::size_t layers = codec->layers().size();
+  expect_same(
+      {{GetParam().shader},
+       "vec3 n = at(" + std::to_string(layers) + ");\nreturn " + GetParam().call + ";",
+       layers + 1},
+      [&](auto& random, auto in) {
+        (void)codec->encode(lit(random, set), in.first(layers));
+        in[layers] = random.normal_above();
+      },
+      [&](auto in) { return codec->decode(in.first(layers), in[layers]); });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Encodings, CodecShaders,
+    testing::Values(CodecShader{{"rnm"}, "rnm", "rnm_decode_squared(at(0), at(1), at(2), n)"},
+                    CodecShader{{"rnm-vrad"}, "rnm", "rnm_decode_squared(at(0), at(1), at(2), n)"},
+                    CodecShader{{"rnm-bakery"}, "rnm", "rnm_decode_linear(at(0), at(1), at(2), n)"},
+                    CodecShader{{"sh2"}, "sh2", "sh2_decode(at(0), at(1), at(2), at(3), n)"},
+                    CodecShader{{"zh3"}, "zh3", "zh3_decode(at(0), at(1), at(2), at(3), n)"},
+                    CodecShader{
+                        {"geomerics"}, "geomerics", "geomerics_decode(at(0), at(1), at(2), at(3), n)"}),
+    [](const auto& one) {
+      std::string name = one.param.options.name;
+      std::ranges::replace(name, '-', '_');
+      return name;
+    });
+
+}  // namespace
+}  // namespace rnmbake
