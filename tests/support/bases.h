@@ -7,7 +7,7 @@
 
 namespace rnmbake {
 
-inline std::vector<BasisDirection> flat_and_rnm() {
+inline std::vector<BasisDirection> default_bases() {
   std::vector<BasisDirection> bases{flat_direction()};
   for (const BasisDirection& basis : rnm_set().directions) bases.push_back(basis);
   return bases;

@@ -98,7 +98,7 @@ inline const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
 
 inline GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
   GatherOptions options;
-  options.directions = flat_and_rnm();
+  options.directions = default_bases();
   options.samples = samples;
   options.seed = seed;
   options.footprint = Footprint::full;

@@ -67,7 +67,7 @@ class TwoObjects : public testing::Test {
   FakeBlender blender_;
   ExportResult exported_ = floor_under_sky();
   ReferencePlan plan_;
-  std::vector<BasisDirection> bases_ = flat_and_rnm();
+  std::vector<BasisDirection> bases_ = default_bases();
   std::string kind_ = "reference";
 };
 

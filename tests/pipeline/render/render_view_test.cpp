@@ -40,7 +40,7 @@ class Studio {
     settings.output.depth = Depth::full;
     ReferencePlan plan;
     plan.blender_version = version;
-    const auto bases = flat_and_rnm();
+    const auto bases = default_bases();
     const ReferenceOutcome outcome = run_reference({traced_, exported.list, bases}, settings, plan);
     ASSERT_EQ(count_failed(outcome.deliveries), 0U);
   }
