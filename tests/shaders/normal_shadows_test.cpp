@@ -3,6 +3,9 @@
 #include "shader_runs.h"
 #include "ssbump/nms_support.h"
 
+#include <cstdint>
+#include <optional>
+
 namespace rnmbake {
 namespace {
 
@@ -14,12 +17,23 @@ FloatImage packed(FloatImage normals, bool y_down) {
   return normals;
 }
 
-/// UVs of every texel's centre, v running down, and column and row.
-std::vector<Vec3> texel_places() {
+/// What light_left() takes as a texel's random part of a step: PCG's output function as a hash.
+float random_part(int x, int y, std::uint32_t seed) {
+  const auto hash = [](std::uint32_t value) {
+    const std::uint32_t state = value * 747796405U + 2891336453U;
+    const std::uint32_t word = ((state >> ((state >> 28U) + 4U)) ^ state) * 277803737U;
+    return (word >> 22U) ^ word;
+  };
+  return static_cast<float>(hash(std::uint32_t(x) + hash(std::uint32_t(y) + hash(seed))) >> 8U) * 0x1p-24F;
+}
+
+/// UVs of every texel's centre, v running down, and its jitter.
+std::vector<Vec3> texel_places(std::optional<std::uint32_t> seed = {}) {
   std::vector<Vec3> places;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      places.emplace_back((static_cast<float>(x) + 0.5F) / width, (static_cast<float>(y) + 0.5F) / height, 0);
+      places.emplace_back((static_cast<float>(x) + 0.5F) / width, (static_cast<float>(y) + 0.5F) / height,
+                          seed ? random_part(x, y, *seed) : 0);
   return places;
 }
 
@@ -67,8 +81,9 @@ void expect_shares(const std::vector<Vec3>& shares, const FloatImage& normals, c
 
 class NormalShadowShader : public testing::TestWithParam<Vec3> {
  protected:
-  std::vector<Vec3> run(const std::string& call, const std::string& shader) {
-    return gl_compute().run(glsl_of({shader}), "return vec3(" + call + ", 0.0, 0.0);", 1, texel_places());
+  std::vector<Vec3> run(const std::string& call, const std::string& shader,
+                        std::optional<std::uint32_t> seed = {}) {
+    return gl_compute().run(glsl_of({shader}), "return vec3(" + call + ", 0.0, 0.0);", 1, texel_places(seed));
   }
   FloatImage normals_ = normals_of_field(waves(width, height, 3));
 };
@@ -84,6 +99,16 @@ TEST_P(NormalShadowShader, Soft) {
                       "normal_shadows"),
                   normals_, light, options);
   }
+}
+
+TEST_P(NormalShadowShader, Jittered) {
+  const Vec3 light = GetParam();
+  const NormalShadowOptions options{.length = 0.22F, .steps = 8, .jitter = 5};
+  gl_compute().add_texture("normal_texture", packed(normals_, false));
+  expect_shares(run(fmt::format("normal_shadow(normal_texture, at(0).xy, 1.0, {}, {}, 8, {:.9f}, at(0).z)",
+                                text_of(light), walk_of(options), options.hardness_used()),
+                    "normal_shadows", 5),
+                normals_, light, options);
 }
 
 TEST_P(NormalShadowShader, Hard) {
