@@ -21,13 +21,18 @@ inline constexpr std::array<std::string_view, 9> sh_layers{"sh0", "sh1", "sh2", 
                                                            "sh5", "sh6", "sh7", "sh8"};
 
 inline constexpr std::array<std::string_view, 4> l1_layers{"l0", "l1x", "l1y", "l1z"};
+inline constexpr std::array<std::string_view, 4> packed_l1_layers{"l0", "t1x", "t1y", "t1z"};
+inline constexpr std::array<std::string_view, 2> mono_l1_layers{"l0", "dir"};
 
 inline constexpr Encoding flat_encoding{"flat", flat_layers};  // E/pi of the surface's own normal
 inline constexpr Encoding rnm_encoding{"rnm", rnm_layers};     // encoding/rnm.h; McTaggart (2004)
 inline constexpr Encoding sh_encoding{"sh", sh_layers};        // encoding/sh.h; Ramamoorthi, Hanrahan (2001)
 inline constexpr Encoding l1_encoding{"l1", l1_layers};        // a and v: encoding/sh2.h, zh3.h, geomerics.h
+inline constexpr Encoding packed_l1_encoding{"l1-packed", packed_l1_layers};  // encoding/packing.h
+inline constexpr Encoding mono_l1_encoding{"l1-mono", mono_l1_layers};
 
-inline constexpr std::array<Encoding, 4> encodings{flat_encoding, rnm_encoding, sh_encoding, l1_encoding};
+inline constexpr std::array<Encoding, 6> encodings{flat_encoding, rnm_encoding,       sh_encoding,
+                                                   l1_encoding,   packed_l1_encoding, mono_l1_encoding};
 
 /// The layer of this name is one of the encoding's.
 [[nodiscard]] inline bool holds_layer(const Encoding& encoding, std::string_view name) {

@@ -87,6 +87,7 @@ template <typename Model, std::size_t N>
   constexpr int most_steps = 100;
   auto now = model(x);
   double cost = now.cost(), damping = 1e-3;
+  if (!std::isfinite(cost)) return {x, cost};
   for (int step = 0; step < most_steps && cost > 1e-20 && damping < 1e9; ++step) {
     const auto move = damped_step(now, x, bounds, damping);
     auto trial = x;

@@ -2,26 +2,16 @@
 
 #include "encoding/encodings.h"
 #include "encoding/geomerics.h"
-#include "encoding/refit.h"
 #include "encoding/sh2.h"
 #include "encoding/zh3.h"
 
-#include <array>
-
 namespace rnmbake {
 namespace {
-
-/// Where flat, rnm0, rnm1 and rnm2 stand among the directions.
-using FourPlaces = std::array<std::size_t, 4>;
 
 FourBakes bakes_of(std::span<const Vec3> irradiance, const FourPlaces& places, int colour) {
   FourBakes bakes{};
   for (std::size_t k = 0; k < 4; ++k) bakes[k] = irradiance[places[k]][colour];
   return bakes;
-}
-
-FourNumbers numbers_of(Lobe lobe, const FourBakes& bakes) {
-  return lobe == sh2_lobe ? linear_numbers(bakes) : refit(lobe, bakes);
 }
 
 class LobeCodec : public Codec {
@@ -63,13 +53,22 @@ class LobeCodec : public Codec {
 }  // namespace
 
 std::unique_ptr<const Codec> lobe_codec(const CodecOptions& options, const BasisSet& directions) {
-  FourPlaces places{needed_direction(directions, flat_direction(), options.name)};
+  return std::make_unique<LobeCodec>(lobe_of(options.name), four_places(directions, options.name));
+}
+
+Lobe lobe_of(const std::string& encoding) {
+  return encoding == "zh3" ? zh3_lobe : encoding == "geomerics" ? geomerics_lobe : sh2_lobe;
+}
+
+FourPlaces four_places(const BasisSet& directions, const std::string& encoding) {
+  FourPlaces places{needed_direction(directions, flat_direction(), encoding)};
   for (std::size_t i = 0; i < 3; ++i)
-    places[i + 1] = needed_direction(directions, rnm_set().directions[i], options.name);
-  const Lobe lobe = options.name == "zh3"         ? zh3_lobe
-                    : options.name == "geomerics" ? geomerics_lobe
-                                                  : sh2_lobe;
-  return std::make_unique<LobeCodec>(lobe, places);
+    places[i + 1] = needed_direction(directions, rnm_set().directions[i], encoding);
+  return places;
+}
+
+FourNumbers numbers_of(Lobe lobe, const FourBakes& bakes) {
+  return lobe == sh2_lobe ? linear_numbers(bakes) : refit(lobe, bakes);
 }
 
 }  // namespace rnmbake

@@ -2,8 +2,12 @@
 #pragma once
 
 #include "encoding/codec.h"
+#include "encoding/lobe.h"
+#include "encoding/refit.h"
 
+#include <array>
 #include <memory>
+#include <string>
 
 namespace rnmbake {
 
@@ -11,5 +15,15 @@ namespace rnmbake {
 /// bakes: encoding/refit.h). Layers l0 (a), l1x, l1y, l1z (v), E/pi.
 [[nodiscard]] std::unique_ptr<const Codec> lobe_codec(const CodecOptions& options,
                                                       const BasisSet& directions);
+
+/// Decoder of that name.
+[[nodiscard]] Lobe lobe_of(const std::string& encoding);
+
+/// Where flat, rnm0, rnm1 and rnm2 stand among the directions. Throws as needed_direction().
+using FourPlaces = std::array<std::size_t, 4>;
+[[nodiscard]] FourPlaces four_places(const BasisSet& directions, const std::string& encoding);
+
+/// a and v that the lobe takes, in tangent space.
+[[nodiscard]] FourNumbers numbers_of(Lobe lobe, const FourBakes& bakes);
 
 }  // namespace rnmbake

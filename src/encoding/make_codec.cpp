@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "encoding/lobe_codec.h"
+#include "encoding/packed_codec.h"
 #include "encoding/rnm_codec.h"
 
 #include <algorithm>
@@ -25,13 +26,33 @@ std::unique_ptr<const Codec> make_rnm(const CodecOptions& options, const BasisSe
   return rnm_codec(options.name, directions);
 }
 
+std::unique_ptr<const Codec> make_lobe(const CodecOptions& options, const BasisSet& directions) {
+  return options.range > 0 ? packed_codec(options, directions) : lobe_codec(options, directions);
+}
+
 constexpr std::array<NamedMaker, 7> makers{{{"flat", make_flat},
                                             {"rnm", make_rnm},
                                             {"rnm-vrad", make_rnm},
                                             {"rnm-bakery", make_rnm},
-                                            {"sh2", lobe_codec},
-                                            {"zh3", lobe_codec},
-                                            {"geomerics", lobe_codec}}};
+                                            {"sh2", make_lobe},
+                                            {"zh3", make_lobe},
+                                            {"geomerics", make_lobe}}};
+
+void check_packing(const CodecOptions& options, Maker maker) {
+  const bool is_packed = options.range != 0;
+  if (maker != make_lobe && (is_packed || options.bits != 0 || options.mono)) {
+    fail(ExitCode::usage, "the encoding '{}' has no range, bits or mono; sh2, zh3 and geomerics have them",
+         options.name);
+  }
+  if (is_packed && !(options.range > 0 && options.range <= 1024))
+    fail(ExitCode::usage, "the range {} of '{}' is none; give 2, 4, or 0 for none", options.range,
+         options.name);
+  if (!is_packed && (options.bits != 0 || options.mono))
+    fail(ExitCode::usage, "'{}' without a range cannot be packed; give the range 2 or 4", options.name);
+  if (options.bits != 0 && options.bits != 8 && options.bits != 16)
+    fail(ExitCode::usage, "'{}' cannot be packed in {} bits; give 8, 16, or 0 for floats", options.name,
+         options.bits);
+}
 
 }  // namespace
 
@@ -48,6 +69,7 @@ std::unique_ptr<const Codec> make_codec(const CodecOptions& options, const Basis
     fail(ExitCode::usage, "there is no encoding '{}'; choose one of {}", options.name,
          fmt::join(codec_names(), ", "));
   }
+  check_packing(options, found->make);
   return found->make(options, directions);
 }
 

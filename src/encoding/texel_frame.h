@@ -11,7 +11,10 @@ struct TexelFrame {
   Vec3 tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
 
   /// A tangent-space vector in the space of the layers.
-  [[nodiscard]] Vec3 stored(const Vec3& v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+  template <typename T>
+  [[nodiscard]] Imath::Vec3<T> stored(const Imath::Vec3<T>& v) const {
+    return Imath::Vec3<T>(tangent) * v.x + Imath::Vec3<T>(bitangent) * v.y + Imath::Vec3<T>(normal) * v.z;
+  }
 };
 
 }  // namespace rnmbake

@@ -29,6 +29,9 @@ Encoded encoded(const Codec& codec, const std::vector<Vec3>& irradiance, const T
 std::vector<std::unique_ptr<const Codec>> all_codecs() {
   std::vector<std::unique_ptr<const Codec>> codecs;
   for (const std::string& name : codec_names()) codecs.push_back(make_codec({name}, flat_and_rnm()));
+  for (const char* name : {"sh2", "zh3", "geomerics"}) {
+    for (const bool mono : {false, true}) codecs.push_back(make_codec({name, 2, 0, mono}, flat_and_rnm()));
+  }
   return codecs;
 }
 
@@ -46,9 +49,9 @@ bool interpolates(const std::string& name) {
   return name == "sh2" || name == "zh3" || name == "geomerics";
 }
 
-std::string refusal(const std::string& name, const BasisSet& set, ExitCode code) {
+std::string refusal(const CodecOptions& options, const BasisSet& set, ExitCode code) {
   try {
-    (void)make_codec({name}, set);
+    (void)make_codec(options, set);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code);
     return error.what();
@@ -57,14 +60,27 @@ std::string refusal(const std::string& name, const BasisSet& set, ExitCode code)
 }
 
 TEST(Codec, RefusesWhatItCannotBeFed) {
-  EXPECT_NE(refusal("shh", flat_and_rnm(), ExitCode::usage).find("choose one of flat, rnm, "),
+  EXPECT_NE(refusal({"shh"}, flat_and_rnm(), ExitCode::usage).find("choose one of flat, rnm, "),
             std::string::npos);
-  EXPECT_NE(refusal("zh3", rnm_set(), ExitCode::unsupported).find("needs the bake 'flat'"),
+  EXPECT_NE(refusal({"zh3"}, rnm_set(), ExitCode::unsupported).find("needs the bake 'flat'"),
             std::string::npos);
   BasisSet y_down = flat_and_rnm();
   std::swap(y_down.directions[2].direction, y_down.directions[3].direction);
-  EXPECT_NE(refusal("rnm", y_down, ExitCode::unsupported).find("needs the bake 'rnm1'"), std::string::npos);
-  EXPECT_EQ(refusal("rnm", rnm_set(), ExitCode::ok), "accepted");
+  EXPECT_NE(refusal({"rnm"}, y_down, ExitCode::unsupported).find("needs the bake 'rnm1'"), std::string::npos);
+  EXPECT_EQ(refusal({"rnm"}, rnm_set(), ExitCode::ok), "accepted");
+}
+
+TEST(Codec, RefusesPackingsThatDoNotExist) {
+  const auto message = [](const CodecOptions& options) {
+    return refusal(options, flat_and_rnm(), ExitCode::usage);
+  };
+  EXPECT_NE(message({"rnm", 2}).find("has no range"), std::string::npos);
+  EXPECT_NE(message({"zh3", -1}).find("give 2, 4, or 0"), std::string::npos);
+  EXPECT_NE(message({"zh3", std::numeric_limits<float>::quiet_NaN()}).find("give 2, 4, or 0"),
+            std::string::npos);
+  EXPECT_NE(message({"sh2", 0, 8}).find("without a range"), std::string::npos);
+  EXPECT_NE(message({"sh2", 0, 0, true}).find("without a range"), std::string::npos);
+  EXPECT_NE(message({"sh2", 2, 10}).find("give 8, 16"), std::string::npos);
 }
 
 TEST(Codec, FindsTheDirectionsInAnyOrder) {
@@ -171,8 +187,11 @@ TEST(Codec, TurnsWithTheWorld) {
     const Vec3 normal(random_direction(random));
     for (const auto& codec : all_codecs()) {
       if (!codec->can_rotate()) continue;
-      const Vec3 in_tangent_space = codec->decode(encoded(*codec, light).layers, normal);
-      const Vec3 in_world = codec->decode(encoded(*codec, light, frame).layers, frame.stored(normal));
+      const Encoded untouched = encoded(*codec, light), turned = encoded(*codec, light, frame);
+      // The range's box follows the axes of the space; within it, nothing does.
+      if (untouched.counts.out_of_range + turned.counts.out_of_range > 0) continue;
+      const Vec3 in_tangent_space = codec->decode(untouched.layers, normal);
+      const Vec3 in_world = codec->decode(turned.layers, frame.stored(normal));
       EXPECT_LE(greatest_error(in_tangent_space, in_world), 1e-5F * max_channel(light[0]))
           << codec->layers().back();
     }

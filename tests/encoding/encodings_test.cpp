@@ -10,15 +10,15 @@
 namespace rnmbake {
 namespace {
 
-TEST(Encodings, NoTwoShareALayer) {
-  std::set<std::string> names, layers;
-  std::size_t count = 0;
+TEST(Encodings, NoTwoShareANameOrAllLayers) {
+  std::set<std::string> names;
+  std::set<std::set<std::string_view>> sets;
   for (const Encoding& encoding : encodings) {
     EXPECT_TRUE(names.insert(std::string(encoding.name)).second) << encoding.name;
-    for (const auto layer : encoding.layers) layers.insert(std::string(layer));
-    count += encoding.layers.size();
+    const std::set<std::string_view> layers(encoding.layers.begin(), encoding.layers.end());
+    EXPECT_EQ(layers.size(), encoding.layers.size()) << encoding.name;
+    EXPECT_TRUE(sets.insert(layers).second) << encoding.name;
   }
-  EXPECT_EQ(layers.size(), count);
 }
 
 TEST(Encodings, TheFlatBakeIsThePlainLayerOfAFile) {
