@@ -73,7 +73,7 @@ std::vector<Target> targets_of(const SceneSurvey& survey) {
   return targets;
 }
 
-std::vector<BasisDirection> flat_and_rnm() {
+std::vector<BasisDirection> default_bases() {
   std::vector<BasisDirection> bases{flat_direction()};
   const BasisSet rnm = rnm_set();
   bases.insert(bases.end(), rnm.directions.begin(), rnm.directions.end());
@@ -87,7 +87,7 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
   const SceneSurvey survey = read_survey(survey_file);
   laps.lap("read survey");
   const std::vector<Target> targets = targets_of(survey);
-  const std::vector<BasisDirection> bases = flat_and_rnm();
+  const std::vector<BasisDirection> bases = default_bases();
   Plan plan;
   laps.lap("targets");
   for (std::size_t i = 0; i < targets.size(); ++i) {

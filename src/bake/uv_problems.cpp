@@ -2,6 +2,8 @@
 
 #include "base/text.h"
 
+#include <cmath>
+
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
@@ -15,7 +17,7 @@ std::vector<UvProblem> uv_problems(const UvReport& report, int side, int wanted_
   const bool in_tiles = report.tile_triangles > 0;
   add(Kind::overlap, report.overlap_texels);
   add(Kind::tiles, report.tile_triangles);
-  add(Kind::outside, in_tiles ? 0 : static_cast<std::size_t>(report.outside_texels + 0.5));
+  add(Kind::outside, in_tiles ? 0 : static_cast<std::size_t>(std::lround(report.outside_texels)));
   add(Kind::no_uv_area, report.degenerate_uv);
   add(Kind::no_area, report.degenerate_world);
   add(Kind::capped, wanted_side > side ? static_cast<std::size_t>(wanted_side) : 0);

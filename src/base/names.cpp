@@ -60,12 +60,12 @@ FileStems::FileStems(const std::vector<std::string>& taken) {
 }
 
 std::string FileStems::take(std::string_view name) {
-  const std::string stem = presentable(harmless(name));
+  std::string stem = presentable(harmless(name));
   if (stem == name && taken_.insert(fold_case(stem)).second) return stem;
   for (int attempt = 0;; ++attempt) {
     const std::string hash =
         short_hash(attempt == 0 ? std::string(name) : fmt::format("{}#{}", name, attempt));
-    const std::string candidate = fmt::format("{}-{}", cut_utf8(stem, max_bytes - hash.size() - 1), hash);
+    std::string candidate = fmt::format("{}-{}", cut_utf8(stem, max_bytes - hash.size() - 1), hash);
     if (taken_.insert(fold_case(candidate)).second) return candidate;
   }
 }

@@ -10,7 +10,8 @@ namespace rnmbake {
 
 struct BlenderVersion {
   int major = 0, minor = 0, patch = 0;
-  auto operator<=>(const BlenderVersion&) const = default;
+  auto operator<=>(const BlenderVersion&) const =
+      default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
 inline constexpr BlenderVersion oldest_blender = {3, 4, 0};

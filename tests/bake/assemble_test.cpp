@@ -65,7 +65,7 @@ FloatImage bake(const AtlasRect& rect, const Target& target, const Suns& light) 
 struct Scene {
   Surface surface;
   Target target = make_target("thing", 32, 32);
-  std::vector<BasisDirection> bases = flat_and_rnm();
+  std::vector<BasisDirection> bases = default_bases();
   ObjectSettings::Horizon horizon = ObjectSettings::Horizon::identity;
 
   [[nodiscard]] TargetBakes baked(const Suns& light, bool frames = false) const {

@@ -120,7 +120,7 @@ TEST(RaiseAbove, ConeIsConvex) {
 }
 
 TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
-  const ReceiverPasses passes = make_receiver_passes(flat_square(), flat_and_rnm(), Horizon::identity);
+  const ReceiverPasses passes = make_receiver_passes(flat_square(), default_bases(), Horizon::identity);
   ASSERT_EQ(passes.passes.size(), 4U);
   EXPECT_EQ(count(passes, Role::basis), 4U);
   for (std::size_t b = 0; b < 4; ++b) {
@@ -128,7 +128,7 @@ TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
     ASSERT_EQ(passes.passes[b].corners.size(), 6U);
     EXPECT_NEAR(uv_area(passes.passes[b]), 1, 1e-6);
     for (const ReceiverCorner& corner : passes.passes[b].corners)
-      EXPECT_LT((corner.normal - flat_and_rnm()[b].direction).length(), 1e-5);
+      EXPECT_LT((corner.normal - default_bases()[b].direction).length(), 1e-5);
   }
   EXPECT_EQ(passes.counts.corners, 24U);
   EXPECT_EQ(passes.counts.corners_below, 0U);
@@ -138,7 +138,7 @@ TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
 
 TEST(ReceiverPasses, OfASmoothCubeNeedTheIdentity) {
   const Surface cube = smooth_cube();
-  const auto bases = flat_and_rnm();
+  const auto bases = default_bases();
   std::size_t below = 0, triangles = 0;
   for (const SurfaceTriangle& triangle : cube.triangles) {
     std::size_t here = 0;
@@ -162,7 +162,7 @@ TEST(ReceiverPasses, OfASmoothCubeNeedTheIdentity) {
 TEST(ReceiverPasses, AreLegalForCyclesEverywhere) {
   const Surface cube = smooth_cube();
   for (const Horizon horizon : {Horizon::identity, Horizon::clamp}) {
-    const ReceiverPasses passes = make_receiver_passes(cube, flat_and_rnm(), horizon);
+    const ReceiverPasses passes = make_receiver_passes(cube, default_bases(), horizon);
     for (const ReceiverPass& pass : passes.passes) {
       const float least = sine_of(0.05) - 1e-5F;
       for (std::size_t i = 0; i < pass.corners.size(); i += 3) {
@@ -180,7 +180,7 @@ TEST(ReceiverPasses, AreLegalForCyclesEverywhere) {
 }
 
 TEST(ReceiverPasses, ClampNeedsNothingElse) {
-  const ReceiverPasses passes = make_receiver_passes(smooth_cube(), flat_and_rnm(), Horizon::clamp);
+  const ReceiverPasses passes = make_receiver_passes(smooth_cube(), default_bases(), Horizon::clamp);
   EXPECT_EQ(passes.passes.size(), 4U);
   EXPECT_GT(passes.counts.corners_below, 0U);
   for (const ReceiverPass& pass : passes.passes) EXPECT_EQ(pass.corners.size(), 36U);
@@ -190,7 +190,7 @@ TEST(ReceiverPasses, AreNotDividedFinerThanTheMapShows) {
   const auto corners = [](const Vec2& map) {
     std::size_t total = 0;
     for (const ReceiverPass& pass :
-         make_receiver_passes(smooth_cube(), flat_and_rnm(), Horizon::identity, map).passes)
+         make_receiver_passes(smooth_cube(), default_bases(), Horizon::identity, map).passes)
       if (pass.role != Role::moment) total += pass.corners.size();
     return total;
   };
@@ -212,7 +212,7 @@ TEST(ReceiverPasses, CutAtTheHorizonCoverTheTriangleOnce) {
         floor_triangle({Vec2(uniform(random), uniform(random)), Vec2(uniform(random), uniform(random)),
                         Vec2(uniform(random), uniform(random))},
                        normals));
-    const ReceiverPasses passes = make_receiver_passes(surface, flat_and_rnm(), Horizon::identity);
+    const ReceiverPasses passes = make_receiver_passes(surface, default_bases(), Horizon::identity);
     const auto& k = surface.triangles[0].corners;
     const ReceiverCorner whole[] = {{{}, {}, k[0].uv}, {{}, {}, k[1].uv}, {{}, {}, k[2].uv}};
     for (std::size_t b = 0; b < 4; ++b) {

@@ -48,7 +48,7 @@ class Requests : public testing::Test {
 
   SceneSurvey survey_;
   std::vector<Target> targets_;
-  std::vector<BasisDirection> bases_ = flat_and_rnm();
+  std::vector<BasisDirection> bases_ = default_bases();
   Plan plan_;
   TempFolder folder_;
 };
