@@ -51,6 +51,28 @@ TEST_P(CodecShaders, DecodeAsTheCodecDoes) {
       [&](auto in) { return codec->decode(in.first(layers), in[layers]); });
 }
 
+/// A lobe's decode of layers packed with K, one direction map for all colours or one for each.
+CodecShader packed(const char* name, int range, int bits, bool mono) {
+  CodecOptions options;
+  options.name = name;
+  options.range = range;
+  options.bits = bits;
+  options.mono = mono;
+  const auto axis = [&](int i) { return fmt::format("packed_sh2_unpack(at(0), at({}), {}.0)", i, range); };
+  return {options, name,
+          mono ? fmt::format("mono_{}_decode(at(0), at(1), {}.0, n)", name, range)
+               : fmt::format("{}_decode(at(0), {}, {}, {}, n)", name, axis(1), axis(2), axis(3))};
+}
+
+std::string test_name(const testing::TestParamInfo<CodecShader>& one) {
+  const CodecOptions& options = one.param.options;
+  std::string name = options.name;
+  if (options.range > 0) name += fmt::format("_{}_in_{}_bits", options.range, options.bits);
+  if (options.mono) name += "_mono";
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Encodings, CodecShaders,
     testing::Values(CodecShader{{"rnm"}, "rnm", "rnm_decode_squared(at(0), at(1), at(2), n)"},
@@ -60,11 +82,14 @@ INSTANTIATE_TEST_SUITE_P(
                     CodecShader{{"zh3"}, "zh3", "zh3_decode(at(0), at(1), at(2), at(3), n)"},
                     CodecShader{
                         {"geomerics"}, "geomerics", "geomerics_decode(at(0), at(1), at(2), at(3), n)"}),
-    [](const auto& one) {
-      std::string name = one.param.options.name;
-      std::ranges::replace(name, '-', '_');
-      return name;
-    });
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(Packings, CodecShaders,
+                         testing::Values(packed("sh2", 2, 8, false), packed("sh2", 4, 16, false),
+                                         packed("sh2", 2, 8, true), packed("zh3", 2, 8, false),
+                                         packed("zh3", 2, 8, true), packed("geomerics", 4, 0, false),
+                                         packed("geomerics", 2, 8, true)),
+                         test_name);
 
 }  // namespace
 }  // namespace rnmbake
