@@ -8,6 +8,7 @@
 #include "image/picture_rows.h"
 #include "lightmap/half_range.h"
 #include "pipeline/convert/frame_rows.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/lightmap_rows.h"
 #include "pipeline/lightmaps/manifest_file.h"
 

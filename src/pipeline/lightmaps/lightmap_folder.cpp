@@ -3,8 +3,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/read_file.h"
-#include "encoding/encodings.h"
-#include "image/channels.h"
+#include "pipeline/lightmaps/lightmap_rows.h"
 #include "pipeline/lightmaps/manifest_file.h"
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace rnmbake {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* layer_name = "rnmbake:layer";
 
 [[noreturn]] void fail_manifest(const std::filesystem::path& file, const std::string& why) {
   fail(ExitCode::invalid_input, "{}: {}; name a folder that rnmbake wrote", file.string(), why);
@@ -80,38 +77,6 @@ LightmapFolder read_folder(const std::filesystem::path& folder) {
   return found;
 }
 
-/// The layer that a file of a split lightmap holds; see lightmap/layout.h.
-void name_split_layer(LayeredImage& part) {
-  const auto found = part.attributes.find(layer_name);
-  const auto* name = found == part.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
-  if (name == nullptr || part.layers.size() != 1) return;
-  part.layers.front().name = exr_layer(*name);
-}
-
-/// Alpha, which some other program may have added, is no part of a lightmap.
-void keep_colour(Layer& layer) {
-  const auto places = places_of(layer.channels, "RGB");
-  if (places.empty() || layer.channels.size() == places.size()) return;
-  layer.pixels = picked(layer.pixels, places);
-  layer.channels = {"R", "G", "B"};
-}
-
-void append_layers(LoadedLightmap& lightmap, LayeredImage&& part, const std::filesystem::path& file) {
-  name_split_layer(part);
-  const auto& known = lightmap.image.layers;
-  for (Layer& layer : part.layers) {
-    keep_colour(layer);
-    const FloatImage& pixels = layer.pixels;
-    if (!known.empty() && (known.front().pixels.width() != pixels.width() ||
-                           known.front().pixels.height() != pixels.height())) {
-      fail(ExitCode::invalid_input, "{} and {} belong to one object but differ in size; bake it again",
-           lightmap.file, file.string());
-    }
-    lightmap.image.layers.push_back(std::move(layer));
-  }
-  lightmap.image.attributes.merge(std::move(part.attributes));
-}
-
 }  // namespace
 
 const LightmapPlace* LightmapFolder::find(const std::string& key) const {
@@ -122,21 +87,15 @@ const LightmapPlace* LightmapFolder::find(const std::string& key) const {
 LightmapFolder open_lightmaps(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return read_folder(path);
   LightmapPlace place{path.stem().string(), {path}, {}};
-  const LoadedLightmap lightmap = load_lightmap(place);
-  if (!lightmap.metadata.object.empty()) place.key = lightmap.metadata.object;
+  const LightmapRows lightmap(place);
+  if (!lightmap.metadata().object.empty()) place.key = lightmap.metadata().object;
   return {path, true, {place}, {}, {}};
 }
 
 LoadedLightmap load_lightmap(const LightmapPlace& place) {
-  LoadedLightmap lightmap;
-  lightmap.file = place.files.front().string();
-  for (const std::filesystem::path& file : place.files) append_layers(lightmap, read_image(file), file);
-  if (place.files.size() > 1) lightmap.image.attributes.erase(layer_name);  // all layers are here
-  if (!has_metadata(lightmap.image)) {
-    fail(ExitCode::invalid_input, "{} is no lightmap of rnmbake: its header names no convention",
-         lightmap.file);
-  }
-  lightmap.metadata = read_metadata(lightmap.image, lightmap.file);
+  LightmapRows rows(place);
+  LoadedLightmap lightmap{rows.file(), rows.read(0, rows.height()), rows.metadata()};
+  lightmap.image.attributes = rows.header().attributes;
   return lightmap;
 }
 

@@ -3,19 +3,13 @@
 
 #include "image/layered_exr.h"
 #include "lightmap/metadata.h"
+#include "pipeline/lightmaps/lightmap_place.h"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace rnmbake {
-
-/// One object's lightmap, not read yet.
-struct LightmapPlace {
-  std::string key;
-  std::vector<std::filesystem::path> files;  // one, or one for each layer
-  std::vector<std::string> outside_model;    // not traced by a reference: "glossy", ...
-};
 
 struct LightmapFolder {
   std::filesystem::path path;

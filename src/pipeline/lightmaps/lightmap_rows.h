@@ -6,7 +6,7 @@
 #include "image/layered_exr.h"
 #include "image/picture_rows.h"
 #include "lightmap/metadata.h"
-#include "pipeline/lightmaps/lightmap_folder.h"
+#include "pipeline/lightmaps/lightmap_place.h"
 
 #include <memory>
 #include <string>

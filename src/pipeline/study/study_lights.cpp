@@ -4,6 +4,7 @@
 #include "encoding/basis_set.h"
 #include "encoding/encodings.h"
 #include "encoding/random_light.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/lightmap_rows.h"
 
 #include <algorithm>

@@ -1,0 +1,17 @@
+// pipeline/lightmaps/lightmap_place.h - where the lightmap of one object lies.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// One object's lightmap, not read yet.
+struct LightmapPlace {
+  std::string key;
+  std::vector<std::filesystem::path> files;  // one, or one for each layer
+  std::vector<std::string> outside_model;    // not traced by a reference: "glossy", ...
+};
+
+}  // namespace rnmbake
