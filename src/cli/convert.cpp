@@ -4,7 +4,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "encoding/make_codec.h"
+#include "encoding/codecs/make_codec.h"
 #include "pipeline/convert/convert.h"
 
 #include <filesystem>

@@ -13,7 +13,7 @@
 namespace rnmbake {
 
 struct CodecOptions {
-  std::string name;  // one of codec_names(), encoding/make_codec.h
+  std::string name;  // one of codec_names(), encoding/codecs/make_codec.h
   // How sh2, zh3 and geomerics are packed: encoding/packing.h.
   double range = 0;   // K: |v_i| <= K a for each axis; 0: a and v as they are
   int bits = 0;       // of each of v's components: 8, 16, or 0 for floats

@@ -1,6 +1,6 @@
 #include "encoding/packing.h"
 
-#include "encoding/gauss_newton.h"
+#include "encoding/fit/gauss_newton.h"
 
 #include <algorithm>
 #include <cmath>

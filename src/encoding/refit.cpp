@@ -1,6 +1,6 @@
 #include "encoding/refit.h"
 
-#include "encoding/gauss_newton.h"
+#include "encoding/fit/gauss_newton.h"
 #include "encoding/rnm.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr double least_a = 1e-6;  // of the greatest bake
 
 FourNumbers numbers_from(Lobe lobe, const FourBakes& bakes, const FourNumbers& start) {
-  const auto directions = four_directions();
+  const auto& directions = four_directions();
   const auto model = [&](const std::array<double, 4>& x) {
     Residual<4, 4> residual;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -49,13 +49,14 @@ FourNumbers start_at(double ratio, const Vec3d& towards, double flat) {
 
 }  // namespace
 
-std::array<Vec3d, 4> four_directions() {
-  const auto basis = rnm_basis();
-  return {Vec3d(0, 0, 1), Vec3d(basis[0]), Vec3d(basis[1]), Vec3d(basis[2])};
+const std::array<Vec3d, 4>& four_directions() {
+  static const std::array<Vec3d, 4> directions{Vec3d(0, 0, 1), Vec3d(rnm_basis()[0]), Vec3d(rnm_basis()[1]),
+                                               Vec3d(rnm_basis()[2])};
+  return directions;
 }
 
 FourNumbers linear_numbers(const FourBakes& bakes) {
-  const auto directions = four_directions();
+  const auto& directions = four_directions();
   Vec3d sum(0);
   double mean = 0;
   for (std::size_t i = 1; i < 4; ++i) {

@@ -9,7 +9,7 @@ namespace rnmbake {
 
 /// Flat, rnm0, rnm1, rnm2, in this order: of one colour, E/pi; or the directions themselves.
 using FourBakes = std::array<double, 4>;
-[[nodiscard]] std::array<Vec3d, 4> four_directions();
+[[nodiscard]] const std::array<Vec3d, 4>& four_directions();
 
 struct FourNumbers {
   double a = 0;

@@ -1,8 +1,8 @@
 #include "lightmap/decode.h"
 
 #include "base/error.h"
+#include "encoding/codecs/make_codec.h"
 #include "encoding/flip_green.h"
-#include "encoding/make_codec.h"
 #include "encoding/rnm.h"
 #include "image/channels.h"
 #include "image/sample.h"

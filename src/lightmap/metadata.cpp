@@ -1,8 +1,8 @@
 #include "lightmap/metadata.h"
 
 #include "base/error.h"
+#include "encoding/codecs/make_codec.h"
 #include "encoding/encodings.h"
-#include "encoding/make_codec.h"
 
 #include <algorithm>
 #include <cmath>

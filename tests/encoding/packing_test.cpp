@@ -1,7 +1,7 @@
 #include "encoding/packing.h"
 
+#include "encoding/codecs/make_codec.h"
 #include "encoding/geomerics.h"
-#include "encoding/make_codec.h"
 #include "encoding/random_light.h"
 #include "encoding/refit.h"
 #include "encoding/sh2.h"

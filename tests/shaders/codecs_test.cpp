@@ -1,6 +1,6 @@
 // What codecs of src/encoding/ write, decoded by shader and by codec.
 #include "encoding/basis_set.h"
-#include "encoding/make_codec.h"
+#include "encoding/codecs/make_codec.h"
 #include "shader_runs.h"
 
 #include <algorithm>

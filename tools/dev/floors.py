@@ -32,6 +32,7 @@ OWNED = {
     "embree": {"rays"},
     "tbb/": {"trace", "ssbump", "pipeline"},
     "hwy/": {"ssbump"},
+    "Eigen/": {"encoding"},
     "xxhash.h": {"base"},
     "utf8proc.h": {"base"},
     "stb_rect_pack.h": {"bake"},

@@ -5,7 +5,7 @@ build_packages=(
   g++ cmake ninja-build python3
   libopenexr-dev libopenimageio-dev openimageio-tools
   libspdlog-dev libfmt-dev libxxhash-dev libutf8proc-dev libstb-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libgtest-dev libepoxy-dev
-  libembree-dev libtbb-dev libhwy-dev zlib1g-dev libzstd-dev
+  libeigen3-dev libembree-dev libtbb-dev libhwy-dev zlib1g-dev libzstd-dev
 )
 blender_packages=(blender python3-numpy)
 style_packages=(clang-format pyflakes3)

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/text_table.h"
-#include "encoding/make_codec.h"
+#include "encoding/codecs/make_codec.h"
 
 #include <algorithm>
 #include <cmath>

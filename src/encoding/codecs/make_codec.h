@@ -1,4 +1,4 @@
-// encoding/make_codec.h - the codecs by the names that users type.
+// encoding/codecs/make_codec.h - the codecs by the names that users type.
 #pragma once
 
 #include "encoding/codec.h"
@@ -12,6 +12,7 @@ namespace rnmbake {
 /// Every name that make_codec() knows.
 [[nodiscard]] std::vector<std::string> codec_names();
 
+/// `sh2` is fitted to all directions where there are more than flat and rnm; packed it uses those four.
 /// Throws Error(usage) for a name that does not exist, Error(unsupported), with the remedy, where
 /// `directions` cannot feed the encoding.
 [[nodiscard]] std::unique_ptr<const Codec> make_codec(const CodecOptions& options,

@@ -1,4 +1,5 @@
-// encoding/rnm_codec.h - codecs whose layers are bakes themselves: flat, and the Half-Life 2 basis' dialects.
+// encoding/codecs/rnm_codec.h - codecs whose layers are bakes themselves: flat, and the Half-Life 2 basis'
+// dialects.
 #pragma once
 
 #include "encoding/codec.h"

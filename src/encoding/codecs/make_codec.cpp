@@ -1,9 +1,11 @@
-#include "encoding/make_codec.h"
+#include "encoding/codecs/make_codec.h"
 
 #include "base/error.h"
-#include "encoding/lobe_codec.h"
-#include "encoding/packed_codec.h"
-#include "encoding/rnm_codec.h"
+#include "encoding/codecs/direction_codecs.h"
+#include "encoding/codecs/linear_codec.h"
+#include "encoding/codecs/lobe_codec.h"
+#include "encoding/codecs/packed_codec.h"
+#include "encoding/codecs/rnm_codec.h"
 
 #include <algorithm>
 #include <array>
@@ -27,16 +29,26 @@ std::unique_ptr<const Codec> make_rnm(const CodecOptions& options, const BasisSe
 }
 
 std::unique_ptr<const Codec> make_lobe(const CodecOptions& options, const BasisSet& directions) {
-  return options.range > 0 ? packed_codec(options, directions) : lobe_codec(options, directions);
+  if (options.range > 0) return packed_codec(options, directions);
+  const bool has_more = directions.directions.size() > 4 || !holds_rnm(directions);
+  return options.name == "sh2" && has_more ? linear_codec(options, directions)
+                                           : lobe_codec(options, directions);
 }
 
-constexpr std::array<NamedMaker, 7> makers{{{"flat", make_flat},
-                                            {"rnm", make_rnm},
-                                            {"rnm-vrad", make_rnm},
-                                            {"rnm-bakery", make_rnm},
-                                            {"sh2", make_lobe},
-                                            {"zh3", make_lobe},
-                                            {"geomerics", make_lobe}}};
+constexpr std::array<NamedMaker, 14> makers{{{"flat", make_flat},
+                                             {"rnm", make_rnm},
+                                             {"rnm-vrad", make_rnm},
+                                             {"rnm-signed", signed_codec},
+                                             {"rnm-bakery", make_rnm},
+                                             {"sh2", make_lobe},
+                                             {"zh3", make_lobe},
+                                             {"geomerics", make_lobe},
+                                             {"ahd", ahd_codec},
+                                             {"dominant", dominant_codec},
+                                             {"sh3", linear_codec},
+                                             {"h4", linear_codec},
+                                             {"h6", linear_codec},
+                                             {"sg", linear_codec}}};
 
 void check_packing(const CodecOptions& options, Maker maker) {
   const bool is_packed = options.range != 0;

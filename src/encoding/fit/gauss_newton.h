@@ -1,4 +1,4 @@
-// encoding/gauss_newton.h - damped Gauss-Newton steps within bounds, for a handful of unknowns.
+// encoding/fit/gauss_newton.h - damped Gauss-Newton steps within bounds, for a handful of unknowns.
 #pragma once
 
 #include <algorithm>

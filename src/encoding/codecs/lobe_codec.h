@@ -1,4 +1,4 @@
-// encoding/lobe_codec.h - codecs of four numbers for each colour, a and v.
+// encoding/codecs/lobe_codec.h - codecs of four numbers for each colour, a and v.
 #pragma once
 
 #include "encoding/codec.h"
@@ -11,8 +11,9 @@
 
 namespace rnmbake {
 
-/// `sh2` (interpolates the four bakes), `zh3` and `geomerics` (refitted so that the decoder returns the four
-/// bakes: encoding/refit.h). Layers l0 (a), l1x, l1y, l1z (v), E/pi.
+/// `sh2` (interpolates the four bakes; of more directions: encoding/codecs/linear_codec.h), `zh3` and
+/// `geomerics` (refitted so that the decoder returns the four bakes: encoding/refit.h). Layers l0 (a), l1x,
+/// l1y, l1z (v), E/pi.
 [[nodiscard]] std::unique_ptr<const Codec> lobe_codec(const CodecOptions& options,
                                                       const BasisSet& directions);
 

@@ -1,7 +1,7 @@
-#include "encoding/packed_codec.h"
+#include "encoding/codecs/packed_codec.h"
 
+#include "encoding/codecs/lobe_codec.h"
 #include "encoding/encodings.h"
-#include "encoding/lobe_codec.h"
 #include "encoding/packing.h"
 
 namespace rnmbake {

@@ -1,4 +1,4 @@
-// encoding/packed_codec.h - sh2, zh3 and geomerics as engines' textures hold them.
+// encoding/codecs/packed_codec.h - sh2, zh3 and geomerics as engines' textures hold them.
 #pragma once
 
 #include "encoding/codec.h"

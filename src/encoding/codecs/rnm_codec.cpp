@@ -1,4 +1,4 @@
-#include "encoding/rnm_codec.h"
+#include "encoding/codecs/rnm_codec.h"
 
 #include "encoding/encodings.h"
 #include "encoding/rnm.h"

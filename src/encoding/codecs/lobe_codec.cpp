@@ -1,4 +1,4 @@
-#include "encoding/lobe_codec.h"
+#include "encoding/codecs/lobe_codec.h"
 
 #include "encoding/encodings.h"
 #include "encoding/geomerics.h"
