@@ -67,7 +67,7 @@ FourNumbers linear_numbers(const FourBakes& bakes) {
   return {bakes[0] - up, {sum.x, sum.y, up}, true};
 }
 
-FourNumbers refit(Lobe lobe, const FourBakes& bakes) {
+FourNumbers nearest_numbers(Lobe lobe, const FourBakes& bakes) {
   double scale = 0;
   for (const double bake : bakes) scale = std::max(scale, std::abs(bake));
   if (scale == 0) return {};
@@ -85,6 +85,14 @@ FourNumbers refit(Lobe lobe, const FourBakes& bakes) {
     if (squared_error(lobe, scaled, other) < squared_error(lobe, scaled, best)) best = other;
   }
   return {best.a * scale, best.v * scale, best.has_converged};
+}
+
+FourNumbers refit(Lobe lobe, const FourBakes& bakes) {
+  const FourNumbers nearest = nearest_numbers(lobe, bakes);
+  if (nearest.has_converged || !(bakes[0] > 0)) return nearest;
+  const Vec3d ratio = flat_kept(lobe, bakes, four_directions(), nearest.v, 2);
+  const double a = bakes[0] / lobe(1, ratio, four_directions()[0]).value;
+  return {a, ratio * a, false};
 }
 
 }  // namespace rnmbake

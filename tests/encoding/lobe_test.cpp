@@ -131,6 +131,13 @@ TEST(Refit, ReturnsTheFourBakes) {
   }
 }
 
+TEST(Refit, WithoutASolutionKeepsTheFlatBake) {
+  const FourBakes wanted{0.4, 1, 0.6, 0.7};
+  const FourNumbers numbers = refit(zh3_lobe, wanted);
+  ASSERT_FALSE(numbers.has_converged);
+  EXPECT_NEAR(zh3_lobe(numbers.a, numbers.v, {0, 0, 1}).value, wanted[0], 1e-9);
+}
+
 TEST(Refit, SaysWhereThereIsNoSolution) {
   // More light at each tilted direction than any lobe gives that has so little straight up.
   EXPECT_FALSE(refit(zh3_lobe, {0.05, 1, 1, 1}).has_converged);

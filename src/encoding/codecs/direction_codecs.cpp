@@ -43,7 +43,7 @@ class AhdCodec : public Codec {
  private:
   EncodeCounts encode_texel(std::span<const Vec3> irradiance, std::span<Vec3> layers,
                             const TexelFrame& frame) const override {
-    const FourNumbers numbers = refit(ahd_lobe, mean_bakes(irradiance, places_));
+    const FourNumbers numbers = nearest_numbers(ahd_lobe, mean_bakes(irradiance, places_));
     const Vec3d direction = unit_or_up(numbers.v);
     std::array<double, 4> seen{};
     for (std::size_t k = 0; k < 4; ++k) seen[k] = std::max(0.0, direction.dot(four_directions()[k]));
