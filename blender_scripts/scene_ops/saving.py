@@ -18,6 +18,16 @@ def save_copy(path, **options):
         raise not_saved(path)
 
 
+def save_data(path, blocks):
+    """These data blocks, and what they use, as a .blend without a scene: a library to link to or to append from."""
+    try:
+        bpy.data.libraries.write(path, blocks, fake_user=True, compress=True)
+    except (RuntimeError, OSError) as error:
+        raise not_saved(path) from error
+    if not os.path.exists(path):
+        raise not_saved(path)
+
+
 def not_saved(path):
     folder = os.path.dirname(path)
     free = shutil.disk_usage(folder).free >> 20

@@ -122,7 +122,8 @@ constexpr const char* about_nms =
 constexpr const char* about_shaders =
     "\n\nPrints GLSL or HLSL functions that decode what rnmbake writes: lightmaps in each encoding,\n"
     "self-shadowed bump maps, shadows out of normal maps. --engine says for whom: the language, the file's\n"
-    "ending, and functions with the names that its materials have.";
+    "ending, and functions with the names that its materials have. --engine blender starts Blender and\n"
+    "writes a .blend of groups of nodes, one for each encoding.";
 
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "

@@ -4,6 +4,8 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text_table.h"
+#include "cli/shaders_blender.h"
+#include "pipeline/shaders/node_groups.h"
 #include "shaders/catalogue.h"
 #include "shaders/engines.h"
 
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {
@@ -23,6 +26,8 @@ struct ShadersOptions {
   std::string engine = "glsl";
   std::filesystem::path output;
   bool list = false;
+  std::string blender;
+  bool keep_temporary = false;
 };
 
 void write_list() {
@@ -30,6 +35,8 @@ void write_list() {
   for (const ShaderFile& file : shader_files()) shaders.add({"  " + file.name, file.purpose});
   for (const ShaderEngine& engine : shader_engines())
     engines.add({"  " + std::string(engine.name), std::string(engine.purpose)});
+  engines.add({std::string("  ") + blender_engine, fmt::format("Blender: groups of nodes, whose NAMEs are {}",
+                                                               fmt::join(node_group_names(), ", "))});
   std::cout << "Shaders:\n";
   shaders.write(std::cout);
   std::cout << "\nEngines:\n";
@@ -50,10 +57,16 @@ void write_files(const ShadersOptions& options, const ShaderEngine& engine) {
 }
 
 int run_shaders(const ShadersOptions& options) {
-  const ShaderEngine& engine = engine_named(options.engine);
   if (options.list) {
     write_list();
-  } else if (options.output.empty()) {
+    return 0;
+  }
+  if (options.engine == blender_engine) {
+    run_shaders_blender(options.names, options.output, options.blender, options.keep_temporary);
+    return 0;
+  }
+  const ShaderEngine& engine = engine_named(options.engine);
+  if (options.output.empty()) {
     std::cout << shader_text(engine, options.names);
   } else {
     write_files(options, engine);
@@ -73,10 +86,18 @@ std::function<int()> add_shaders_command(CLI::App& app) {
   command->add_option("--engine", options->engine, "whose language and names (see --list) [glsl]")
       ->type_name("ENGINE");
   command
-      ->add_option("-o,--output", options->output,
-                   "write a file for each NAME into this folder; else all go to stdout as one text")
-      ->type_name("DIR");
+      ->add_option(
+          "-o,--output", options->output,
+          "write a file for each NAME into this folder; else all go to stdout as one text. Of blender one "
+          ".blend, in this folder or of this name")
+      ->type_name("DIR|FILE");
   command->add_flag("--list", options->list, "say which shaders and engines there are");
+  command
+      ->add_option("--blender", options->blender,
+                   "of --engine blender: Blender to use, a path or a name in PATH [searched]")
+      ->type_name("PROGRAM");
+  command->add_flag("--keep-temporary", options->keep_temporary,
+                    "of --engine blender: leave what Blender was given and gave");
   return [options] { return run_shaders(*options); };
 }
 

@@ -28,7 +28,7 @@ NOT_OURS = {".git", ".roots", "build", "out", "shared"}
 FOREIGN_FLAGS = {
     "--factory-startup", "--python", "--python-exit-code",  # blender
     "--install",  # cmake
-    "--info",  # oiiotool
+    "--info", "--ch", "--chnames",  # oiiotool
     "--gtest_filter",  # GoogleTest
 }
 HIDDEN_FLAGS = {"--print-settings-doc"}  # of rnmbake; generates a part of the documentation

@@ -1,0 +1,1 @@
+"""Node groups that decode lightmaps (docs/shaders.md)."""
