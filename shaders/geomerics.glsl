@@ -1,6 +1,6 @@
 // geomerics.glsl - the numbers of sh2.glsl as a power of the half cosine, never negative where |v| <= 2 a.
 // Geomerics (Hazel), "Reconstructing Diffuse Lighting from Spherical Harmonic Data" (2015): R0 = a, R1 = v / 2.
-// Fed with a plain fit to a hemisphere it is 14 % too dark: layers must be refitted for it (`geomerics`).
+// Fed with a plain fit to a hemisphere it is too bright, by a sixth under an even sky: layers must be refitted for it (`geomerics`).
 #ifndef RNMBAKE_GEOMERICS
 #define RNMBAKE_GEOMERICS
 #include "rnmbake_types.glsl"

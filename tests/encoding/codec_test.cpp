@@ -70,9 +70,9 @@ TEST(Codec, RefusesWhatItCannotBeFed) {
   EXPECT_NE(refusal({"rnm"}, y_down, ExitCode::unsupported).find("needs the bake 'rnm1'"), std::string::npos);
   EXPECT_EQ(refusal({"rnm"}, rnm_set(), ExitCode::ok), "accepted");
   const std::string too_few = refusal({"h6"}, flat_and_rnm(), ExitCode::unsupported);
-  EXPECT_NE(too_few.find("bake --basis h6"), std::string::npos) << too_few;
+  EXPECT_NE(too_few.find("bake --basis-set h6"), std::string::npos) << too_few;
   // Ten directions, but on rings that leave band 2 open.
-  EXPECT_NE(refusal({"sh3"}, *direction_set("h6"), ExitCode::unsupported).find("bake --basis sh3"),
+  EXPECT_NE(refusal({"sh3"}, *direction_set("h6"), ExitCode::unsupported).find("bake --basis-set sh3"),
             std::string::npos);
 }
 

@@ -106,6 +106,11 @@ TEST(Refit, OfAUniformSky) {
   const FourNumbers linear = linear_numbers({1, 0.788675135, 0.788675135, 0.788675135});
   EXPECT_NEAR(linear.a, 0.5, 1e-7);
   EXPECT_NEAR(linear.v.z, 0.5, 1e-7);
+  // Fed with these, the lobes are too bright straight up: why they are refitted.
+  const double rho = std::sqrt(3) / 2;
+  EXPECT_NEAR(zh3_lobe(0.5, {0, 0, 0.5}, {0, 0, 1}).value, 1 + std::sqrt(5) / 8 * rho * (0.08 + 0.6 * rho),
+              1e-12);
+  EXPECT_NEAR(geomerics_lobe(0.5, {0, 0, 0.5}, {0, 0, 1}).value, 7.0 / 6, 1e-12);
 }
 
 TEST(Refit, ReturnsTheFourBakes) {

@@ -75,7 +75,7 @@ LeastSquares sound_fit_of(const Functions& functions, const std::string& encodin
   if (!(fit.condition() <= greatest_condition)) {
     fail(ExitCode::unsupported,
          "the {} directions of '{}' do not determine the encoding '{}' (condition {:.3g}, at most {}); bake "
-         "--basis {}",
+         "--basis-set {}",
          set.directions.size(), set.name, encoding, fit.condition(), greatest_condition, functions.set);
   }
   return fit;
