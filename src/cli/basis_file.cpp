@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/read_file.h"
 #include "config/parse_toml.h"
+#include "encoding/direction_sets.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -50,6 +51,13 @@ BasisDirection basis_of(const std::filesystem::path& file, const toml::node& nod
   return {*name, direction_of(file, *table)};
 }
 
+BasisSet set_of(BakingSettings::DirectionSet chosen) {
+  using enum BakingSettings::DirectionSet;
+  if (chosen == rnm) return rnm_set();
+  const char* name = chosen == l1 ? "l1" : chosen == h6 ? "h6" : chosen == sg ? "sg" : "sh3";
+  return direction_set(name).value();
+}
+
 }  // namespace
 
 BasisFile read_basis_file(const std::filesystem::path& file) {
@@ -66,13 +74,13 @@ BasisFile read_basis_file(const std::filesystem::path& file) {
 }
 
 std::vector<BasisDirection> choose_bases(const BakingSettings& settings) {
-  BasisSet set = rnm_set();
+  BasisSet set = set_of(settings.basis_set);
   if (!settings.basis.empty()) {
     BasisFile file = read_basis_file(settings.basis);
     for (const std::string& warning : file.warnings) log::warn("{}", warning);
     set = std::move(file.set);
   }
-  if (!settings.basis.empty() && settings.bases.empty()) return set.directions;
+  if (settings.bases.empty()) return set.directions;
   std::vector<BasisDirection> known = set.directions;
   if (std::ranges::count(known, flat_direction().name, &BasisDirection::name) == 0)
     known.push_back(flat_direction());

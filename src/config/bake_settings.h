@@ -48,11 +48,13 @@ struct BakingSettings {
   enum class Recipe { receiver, flat_normal_map };
   enum class Dispatch { automatic, basis, object, scene };
   enum class Device { cpu, cuda, optix, hip, metal, oneapi };
+  enum class DirectionSet { rnm, l1, h6, sg, sh3 };
 
-  /// Names out of flat, rnm0, rnm1, rnm2, or out of the basis file. Resolved, it is empty only where a basis
-  /// file is set and all of its vectors are wanted.
+  /// Names out of flat, rnm0, rnm1, rnm2, or out of the basis file or set. Resolved, it is empty only where
+  /// one of these is chosen and all of its vectors are wanted.
   std::vector<std::string> bases;
-  std::filesystem::path basis;  // file with a list of unit vectors; "": RNM
+  std::filesystem::path basis;                 // file with a list of unit vectors; "": basis_set
+  DirectionSet basis_set = DirectionSet::rnm;  // encoding/direction_sets.h
   Recipe recipe = Recipe::receiver;
   bool correct_bump = false;  // flat_normal_map only
   Dispatch dispatch = Dispatch::automatic;

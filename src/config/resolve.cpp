@@ -29,15 +29,19 @@ void check_limits(const ObjectSettings& object, const std::string& where) {
 
 const std::vector<std::string> rnm{"flat", "rnm0", "rnm1", "rnm2"};
 
+/// Names from a basis file or another set are checked where their vectors are.
+bool takes_rnm(const BakingSettings& bake) {
+  return bake.basis.empty() && bake.basis_set == BakingSettings::DirectionSet::rnm;
+}
+
 void fill_bases(BakingSettings& bake) {
-  if (bake.bases.empty() && bake.basis.empty()) bake.bases = rnm;
+  if (bake.bases.empty() && takes_rnm(bake)) bake.bases = rnm;
 }
 
 void check_bases(const BakingSettings& bake, const std::string& where) {
   std::set<std::string> seen;
   for (const std::string& name : bake.bases) {
-    // Names from a basis file are checked where that file is read.
-    if (bake.basis.empty() && std::find(rnm.begin(), rnm.end(), name) == rnm.end()) {
+    if (takes_rnm(bake) && std::find(rnm.begin(), rnm.end(), name) == rnm.end()) {
       fail(ExitCode::usage, "{}: unknown basis '{}'; give {}{}", where, name, fmt::join(rnm, ", "),
            did_you_mean(name, rnm));
     }
@@ -112,8 +116,12 @@ void ResolvedConfig::check_together() const {
   const bool least_given = provenance("min_resolution") != "default";
   check_limits(globals.object, provenance(least_given ? "min_resolution" : "max_resolution"));
   check_bases(globals.bake, provenance("bases"));
+  if (!globals.bake.basis.empty() && globals.bake.basis_set != BakingSettings::DirectionSet::rnm) {
+    fail(ExitCode::usage, "basis ({}) and basis_set ({}) both say which directions to bake; give one of them",
+         provenance("basis"), provenance("basis_set"));
+  }
   const auto& bases = globals.bake.bases;
-  if (globals.output.normalize == Normalize::flat && globals.bake.basis.empty() &&
+  if (globals.output.normalize == Normalize::flat && takes_rnm(globals.bake) &&
       std::find(bases.begin(), bases.end(), "flat") == bases.end()) {
     fail(ExitCode::usage, "{}: normalize = flat needs the flat bake; add flat to 'bases' ({})",
          provenance("normalize"), provenance("bases"));

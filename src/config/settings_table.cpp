@@ -30,6 +30,9 @@ Spelling spelling(SceneSettings::Materials) {
 Spelling spelling(BakingSettings::Recipe) {
   return {name_of(BakingSettings::Recipe::receiver), name_of(BakingSettings::Recipe::flat_normal_map)};
 }
+Spelling spelling(BakingSettings::DirectionSet) {
+  return {"rnm", "l1", "h6", "sg", "sh3"};
+}
 Spelling spelling(BakingSettings::Dispatch) {
   return {"auto", "basis", "object", "scene"};
 }
@@ -211,9 +214,11 @@ std::vector<Setting> make_settings_table() {
           .range(4, 16384)
           .unit("texels"),
       bake("bases", &Bake::bases, "directions to bake")
-          .empty_means("flat, rnm0, rnm1, rnm2; with a basis file: all of its vectors"),
+          .empty_means("flat, rnm0, rnm1, rnm2; with a basis set or file: all of its vectors"),
       bake("basis", &Bake::basis, "TOML file with a list of unit vectors to bake instead of RNM's")
           .empty_means("flat and the three vectors of RNM"),
+      bake("basis_set", &Bake::basis_set,
+           "directions to bake for encodings that want more than RNM's (rnmbake convert --to h6, sg, sh3)"),
       bake("recipe", &Bake::recipe, "receiver is exact; flat-normal-map is the published recipe, uncorrected")
           .only({Purpose::bake}),
       bake("correct_bump", &Bake::correct_bump,

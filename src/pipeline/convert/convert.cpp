@@ -28,8 +28,10 @@ namespace fs = std::filesystem;
 
 constexpr int band_rows = 64;  // whole zip blocks, and more than FrameRows::reach
 
-/// Decoders that return the very bakes which their numbers were made from.
-bool keeps_bakes(const CodecOptions& codec) {
+/// The decoder returns the very bakes which its numbers were made from. Of more than four, sh2 is a fit.
+bool keeps_bakes(const LightmapMetadata& metadata) {
+  const CodecOptions& codec = metadata.codec;
+  if (codec.name == "sh2" && metadata.bases.size() > 4) return false;
   const bool is_lobe = codec.name == "sh2" || codec.name == "zh3" || codec.name == "geomerics";
   return is_lobe && codec.range == 0;
 }
@@ -294,7 +296,7 @@ std::optional<std::string> convert_obstacle(const LightmapMetadata& metadata) {
   if (metadata.is_baked()) return std::nullopt;
   if (!metadata.is_encoded())
     return "its convention is '" + metadata.convention + "', which is not known; convert what rnmbake baked";
-  if (keeps_bakes(metadata.codec)) return std::nullopt;
+  if (keeps_bakes(metadata)) return std::nullopt;
   return "'" + metadata.convention + "' does not keep what was baked; convert the baked lightmap";
 }
 

@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "base/text_table.h"
 #include "encoding/codecs/make_codec.h"
+#include "encoding/direction_sets.h"
+#include "encoding/random_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,18 +34,24 @@ int bytes_of(const CodecOptions& options, const Codec& codec) {
   return half_colour + (layers - 1) * 3 * options.bits / 8;
 }
 
+std::vector<BasisSet> candidate_sets() {
+  std::vector<BasisSet> sets{flat_and_rnm()};
+  for (const char* name : {"l1", "h6", "sg", "sh3"}) sets.push_back(direction_set(name).value());
+  return sets;
+}
+
 std::string percent(double share) {
   return fmt::format("{:.1f}", 100 * share);
 }
 
 /// Header and rows of the table, cells as text.
 std::vector<std::vector<std::string>> cells(const std::vector<EncodingErrors>& errors) {
-  std::vector<std::vector<std::string>> rows{{"encoding", "bytes"}};
+  std::vector<std::vector<std::string>> rows{{"encoding", "bakes", "bytes"}};
   for (const double limit : tilt_limits) rows.front().push_back(fmt::format("<= {:g}", limit));
   rows.front().emplace_back("flat bias");
   for (const EncodingErrors& one : errors) {
     if (!one.unfit.empty()) continue;
-    std::vector<std::string> row{one.label, std::to_string(one.bytes)};
+    std::vector<std::string> row{one.label, std::to_string(one.bakes), std::to_string(one.bytes)};
     for (const double rms : one.rms) row.push_back(percent(rms));
     row.push_back(fmt::format("{:+.1f}", 100 * one.flat_bias));
     rows.push_back(std::move(row));
@@ -56,14 +64,37 @@ std::vector<std::vector<std::string>> cells(const std::vector<EncodingErrors>& e
 struct EncodingStudy::Studied {
   EncodingErrors errors;
   std::unique_ptr<const Codec> codec;
+  std::vector<std::size_t> feeds;  // [directions of the codec] -> directions of the study
   std::array<double, tilt_limits.size()> squares{}, sums{};
   double flat_sum = 0;
+
+  /// Takes the first of the sets, small ones first, that `fed` holds and the codec can be made from.
+  void feed(const BasisSet& fed) {
+    for (const BasisSet& set : candidate_sets()) {
+      std::vector<std::size_t> places;
+      for (const BasisDirection& basis : set.directions)
+        if (const auto place = place_of(fed, basis)) places.push_back(*place);
+      if (places.size() < set.directions.size()) continue;
+      try {
+        codec = make_codec(errors.codec, set);
+      } catch (const Error& error) {
+        errors.unfit = error.what();
+        continue;
+      }
+      errors.unfit.clear();
+      feeds = std::move(places);
+      errors.bakes = feeds.size();
+      errors.bytes = bytes_of(errors.codec, *codec);
+      return;
+    }
+  }
 
   /// Sums over the normals of one light, each band by itself.
   void add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat,
            std::span<const Vec3> normals) {
-    std::vector<Vec3> layers(codec->layers().size());
-    (void)codec->encode(at_fed, layers);
+    std::vector<Vec3> layers(codec->layers().size()), irradiance;
+    for (const std::size_t place : feeds) irradiance.push_back(at_fed[place]);
+    (void)codec->encode(irradiance, layers);
     for (std::size_t i = 0; i < normals.size(); ++i) {
       const Vec3 error = codec->decode(layers, normals[i]) - at_normals[i];
       const double degrees = std::acos(std::clamp(double(normals[i].z), -1.0, 1.0)) * 180 / pi;
@@ -83,12 +114,7 @@ EncodingStudy::EncodingStudy(const BasisSet& fed, std::vector<Vec3> normals) : n
     Studied& studied = studied_.emplace_back();
     studied.errors.label = label_of(options);
     studied.errors.codec = options;
-    try {
-      studied.codec = make_codec(options, fed);
-      studied.errors.bytes = bytes_of(options, *studied.codec);
-    } catch (const Error& error) {
-      studied.errors.unfit = error.what();
-    }
+    studied.feed(fed);
   }
 }
 
@@ -181,8 +207,11 @@ std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t li
                          {"mono", one.codec.mono},
                          {"label", one.label}};
     if (one.unfit.empty()) {
-      entry.update(
-          {{"bytes", one.bytes}, {"rms", one.rms}, {"bias", one.bias}, {"flat_bias", one.flat_bias}});
+      entry.update({{"bakes", one.bakes},
+                    {"bytes", one.bytes},
+                    {"rms", one.rms},
+                    {"bias", one.bias},
+                    {"flat_bias", one.flat_bias}});
     } else {
       entry["unfit"] = one.unfit;
     }

@@ -19,7 +19,8 @@ inline constexpr std::array<double, 4> tilt_limits{25, 45, 60, 90};
 struct EncodingErrors {
   std::string label;  // "zh3", "zh3 K=2 8 bits"
   CodecOptions codec;
-  int bytes = 0;  // of a texel as engines store it: half floats, or packed
+  std::size_t bakes = 0;  // directions that it is made from
+  int bytes = 0;          // of a texel as engines store it: half floats, or packed
   std::array<double, tilt_limits.size()> rms{}, bias{};  // shares of the flat light; bias: decoded minus true
   double flat_bias = 0;                                  // of the flat normal
   std::string unfit;  // why the directions cannot feed it; the rest is then 0
@@ -30,8 +31,9 @@ struct EncodingErrors {
 /// count for nothing and need no limit.
 class EncodingStudy {
  public:
-  /// `fed`: the directions whose irradiance codecs are made from. `normals`: unit, tangent space, where they
-  /// are tested.
+  /// `fed`: directions with known irradiance; each codec is made from the smallest set of
+  /// encoding/direction_sets.h among them that feeds it. `normals`: unit, tangent space, where they are
+  /// tested.
   EncodingStudy(const BasisSet& fed, std::vector<Vec3> normals);
   ~EncodingStudy();
   EncodingStudy(EncodingStudy&&) noexcept;

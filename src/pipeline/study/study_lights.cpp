@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "encoding/basis_set.h"
+#include "encoding/direction_sets.h"
 #include "encoding/encodings.h"
 #include "encoding/random_light.h"
 #include "pipeline/lightmaps/lightmap_folder.h"
@@ -34,12 +35,12 @@ struct FedAndTested {
 
 FedAndTested divided(const LightmapMetadata& metadata, const std::string& file) {
   FedAndTested all{{file, {}}, {}};
-  const BasisSet usual = flat_and_rnm();
-  for (const BasisDirection& basis : metadata.bases) {
-    const bool is_fed = std::ranges::count(usual.directions, basis.name, &BasisDirection::name) > 0;
-    (is_fed ? all.fed.directions : all.tested).push_back(basis);
-  }
-  if (all.fed.directions.size() < usual.directions.size() || all.tested.empty()) {
+  const BasisSet feeding = direction_set("sh3").value(), least = flat_and_rnm();
+  for (const BasisDirection& basis : metadata.bases)
+    (place_of(feeding, basis) ? all.fed.directions : all.tested).push_back(basis);
+  const bool feeds = std::ranges::all_of(
+      least.directions, [&](const BasisDirection& basis) { return place_of(all.fed, basis).has_value(); });
+  if (!feeds || all.tested.empty()) {
     fail(ExitCode::unsupported,
          "{} has no bakes to test encodings at: needed are flat, rnm0 to rnm2 and other directions; bake "
          "with --basis "
@@ -101,7 +102,7 @@ class TexelsOf {
 }  // namespace
 
 EncodingStudy study_random(std::size_t count, std::uint64_t seed) {
-  const BasisSet fed = flat_and_rnm();
+  const BasisSet fed = direction_set("sh3").value();  // all of them: the sets are nested
   std::vector<Vec3> normals;
   for (const Vec3d& normal : spread_over_hemisphere(tested_normals)) normals.emplace_back(normal);
   EncodingStudy study(fed, normals);
