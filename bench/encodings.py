@@ -28,14 +28,9 @@ def table(binary, lights, out):
 def scene_table(binary, name, args, out):
     truth = out / f"{name}-truth"
     run(binary, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis", ROOT / "scenes" / "study.toml",
-        "--bases", "flat," + ",".join(directions()), "--resolution", args.resolution, "--error", args.error,
+        "--resolution", args.resolution, "--error", args.error,
         "--depth", "float", "-o", truth)
     return table(binary, [truth], out / name)
-
-
-def directions():
-    lines = (ROOT / "scenes" / "study.toml").read_text(encoding="utf-8").splitlines()
-    return [line.split('"')[1] for line in lines if line.startswith("name")]
 
 
 def findings(figures):
