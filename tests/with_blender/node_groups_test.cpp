@@ -2,8 +2,9 @@
 // same files. Rendered by scenes/node_group_views.py.
 #include "pipeline/shaders/node_groups.h"
 
-#include "encoding/basis_set.h"
 #include "encoding/codecs/make_codec.h"
+#include "encoding/direction_sets.h"
+#include "encoding/encodings.h"
 #include "image/layered_exr.h"
 #include "lightmap/metadata.h"
 #include "sampling/splitmix64.h"
@@ -44,31 +45,32 @@ void run(const std::vector<std::string>& words) {
   if (!result.succeeded()) fail(ExitCode::tasks_failed, "rnmbake {}: {}", words.front(), result.output);
 }
 
+/// Flat, the basis and what else the encodings are fitted to.
+const BasisSet& directions() {
+  static const BasisSet set = direction_set("sh3").value();
+  return set;
+}
+
 /// Two suns over a sky for each colour and texel; the first texel is dark.
 LayeredImage baked() {
   SplitMix64 random(3);
   LayeredImage image;
-  for (const char* name : {"", "rnm0", "rnm1", "rnm2"})
-    image.layers.push_back({name, {"R", "G", "B"}, FloatImage(size, size, 3)});
-  const std::vector<BasisDirection> basis = rnm_set().directions;
+  for (const BasisDirection& basis : directions().directions)
+    image.layers.push_back({exr_layer(basis.name), {"R", "G", "B"}, FloatImage(size, size, 3)});
   for (std::size_t i = 3; i < image.layers[0].pixels.data().size(); ++i) {
-    const float sky = float(random.next_double());
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      const float z = layer == 0 ? 1 : basis[layer - 1].direction.z;
-      image.layers[layer].pixels.data()[i] = sky * (1 + z) / 2;
-    }
-    for (int sun = 0; sun < 2; ++sun) {
-      const Vec3 direction = tilted(random, 0);
-      const float strength = float(random.next_double());
-      image.layers[0].pixels.data()[i] += strength * direction.z;
-      for (std::size_t layer = 1; layer < 4; ++layer)
-        image.layers[layer].pixels.data()[i] +=
-            strength * std::max(0.0F, direction.dot(basis[layer - 1].direction));
+    const std::array<Vec3, 2> suns{tilted(random, 0), tilted(random, 0)};
+    std::array<float, 3> strengths{};
+    for (float& strength : strengths) strength = float(random.next_double());
+    for (std::size_t layer = 0; layer < image.layers.size(); ++layer) {
+      const Vec3 normal = directions().directions[layer].direction;
+      float light = strengths[2] * (1 + normal.z) / 2;
+      for (std::size_t sun = 0; sun < 2; ++sun)
+        light += strengths[sun] * std::max(0.0F, normal.dot(suns[sun]));
+      image.layers[layer].pixels.data()[i] = light;
     }
   }
   LightmapMetadata metadata;
-  metadata.bases = basis;
-  metadata.bases.insert(metadata.bases.begin(), flat_direction());
+  metadata.bases = directions().directions;
   metadata.object = "floor";
   write_metadata(metadata, image);
   return image;
@@ -89,14 +91,20 @@ void add_limits(LayeredImage& image) {
   }
 }
 
-/// Upright to grazing, of any length, as a map's colours 0 to 1.
+/// A directionality below the least that the decode divides by.
+void add_least_directionality(LayeredImage& image) {
+  for (Layer& layer : image.layers)
+    if (layer.name == "directionality") std::ranges::fill(layer.pixels.texel(0, size - 1), 5e-5F);
+}
+
+/// Of the whole sphere and of any length, as a map's colours 0 to 1.
 LayeredImage normal_map() {
   SplitMix64 random(5);
   LayeredImage image;
   image.layers.push_back({"", {"R", "G", "B"}, FloatImage(size, size, 3)});
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const Vec3 normal = tilted(random, 0.05F) * (0.5F + 0.5F * float(random.next_double()));
+      const Vec3 normal = tilted(random, -1) * (0.5F + 0.5F * float(random.next_double()));
       std::ranges::copy(std::array{normal.x / 2 + 0.5F, normal.y / 2 + 0.5F, normal.z / 2 + 0.5F},
                         image.layers[0].pixels.texel(x, y).begin());
     }
@@ -159,6 +167,7 @@ class NodeGroups : public testing::Test {
          "-q"});
     LayeredImage image = read_image(file(name) / "baked.exr");
     if (image.find("l1x")) add_limits(image);
+    add_least_directionality(image);
     write_exr(lightmap(name), image, Depth::full);
     for (const Layer& layer : image.layers) {
       LayeredImage alone;
@@ -172,9 +181,7 @@ class NodeGroups : public testing::Test {
   }
 
   static std::vector<std::string> layers_of(const std::string& name) {
-    BasisSet directions = rnm_set();
-    directions.directions.push_back(flat_direction());
-    return make_codec({name}, directions)->layers();
+    return make_codec({name}, directions())->layers();
   }
 
   static json view(const std::string& name, const Normals& normals) {

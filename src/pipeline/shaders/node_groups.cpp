@@ -14,7 +14,8 @@ namespace rnmbake {
 namespace fs = std::filesystem;
 
 std::vector<std::string> node_group_names() {
-  return {"flat", "rnm", "rnm-vrad", "rnm-bakery", "sh2", "zh3", "geomerics"};
+  return {"flat",      "rnm", "rnm-vrad", "rnm-signed", "rnm-bakery", "sh2", "zh3",
+          "geomerics", "ahd", "dominant", "sh3",        "h4",         "h6",  "sg"};
 }
 
 std::vector<std::string> checked_node_groups(const std::vector<std::string>& names) {
