@@ -13,7 +13,7 @@ import document
 from measure import ROOT
 
 PAGE = ROOT / "docs" / "encodings.md"
-SCENES = ("cornell", "hall", "panels")
+SCENES = ("cornell", "cave", "panels")
 
 
 def run(binary, *words):

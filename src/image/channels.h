@@ -19,7 +19,8 @@ struct ChannelGroup {
 /// In the order of the layers' names; a name of several letters without a dot is a layer with one channel "".
 [[nodiscard]] std::vector<ChannelGroup> channel_groups(const std::vector<std::string>& names);
 
-/// Files list their channels by the alphabet; the same with R, G, B, X, Y, Z first in this order and alpha last.
+/// Files list their channels by the alphabet; the same with R, G, B, X, Y, Z first in this order and alpha
+/// last.
 [[nodiscard]] ChannelGroup in_usual_order(const ChannelGroup& group);
 
 /// Where channels with these one-letter names are, in this order, in any case; empty where one is missing.
