@@ -22,15 +22,21 @@ namespace {
 
 struct ConvertFlags {
   std::filesystem::path lightmaps, output;
-  std::string space = "tangent", depth = "half";
+  std::string space = "tangent", depth = "half", layout = "layers";
   ConvertOptions convert;
   bool json = false;
 };
 
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+  return names;
+}
+
 nlohmann::json json_of(const ConvertSummary& summary) {
   const EncodeCounts& counts = summary.counts;
   return {{"key", summary.key},
-          {"file", summary.file.filename().string()},
+          {"files", names_of(summary.files)},
           {"texels", counts.texels},
           {"non_finite", counts.non_finite},
           {"negative_lobes", counts.negative_lobes},
@@ -74,6 +80,7 @@ int run_convert(ConvertFlags flags) {
   if (codec.range == 0 && (codec.bits > 0 || codec.mono))
     fail(ExitCode::usage, "--bits and --mono are for packed encodings; add --range 2 or --range 4");
   flags.convert.world = flags.space == "world";
+  flags.convert.split = flags.layout == "files";
   flags.convert.depth = flags.depth == "float" ? Depth::full : Depth::half;
   Progress progress("converting", progress_for(log::is_quiet(), log::is_jsonl()));
   const std::vector<ConvertSummary> summaries =
@@ -126,6 +133,11 @@ std::function<int()> add_convert_command(CLI::App& app) {
                    "of the layers: tangent, or world, which needs lightmaps baked with --frames [tangent]")
       ->check(CLI::IsMember({"tangent", "world"}).description(""))
       ->type_name("tangent|world");
+  command
+      ->add_option("--layout", flags->layout,
+                   "one EXR with layers for each lightmap, or one EXR for each layer (floor.l0.exr) [layers]")
+      ->check(CLI::IsMember({"layers", "files"}).description(""))
+      ->type_name("layers|files");
   command->add_option("--depth", flags->depth, "of the EXR's values [half]")
       ->check(CLI::IsMember({"half", "float"}).description(""))
       ->type_name("half|float");

@@ -5,11 +5,11 @@
 #include "base/json.h"
 #include "encoding/codecs/make_codec.h"
 #include "encoding/encodings.h"
-#include "image/picture_rows.h"
 #include "lightmap/half_range.h"
 #include "pipeline/convert/frame_rows.h"
 #include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/lightmap_rows.h"
+#include "pipeline/lightmaps/lightmap_writer.h"
 #include "pipeline/lightmaps/manifest_file.h"
 
 #include <algorithm>
@@ -144,19 +144,14 @@ class Conversion {
   }
 
   ConvertSummary write(const fs::path& file, const std::function<void(double)>& progress) {
-    PictureForm form{source_.width(), source_.height(), {}, Storage::full, {}};
-    if (options_.depth == Depth::half) form.storage = Storage::half;
-    LayeredImage header = output_header();
-    for (const Layer& layer : header.layers)
-      for (const std::string& channel : layer.channels) form.channels.push_back(channel_name(layer, channel));
-    form.attributes = std::move(header.attributes);
-    PictureWriter writer(file, form);
-    summary_.file = file;
+    LightmapWriter writer(file, output_header(), source_.width(), source_.height(), options_.depth,
+                          options_.split);
+    summary_.files = writer.files();
     LayeredImage next = read(0);
     for (int begin = 0; begin < source_.height(); begin += band_rows) {
       const LayeredImage rows = std::exchange(next, read(begin + band_rows));
       const int end = std::min(begin + band_rows, source_.height());
-      writer.write(begin, end, converted(rows, begin, end, form.channels.size()));
+      writer.write(begin, end, converted(rows, begin, end, writer.channels()));
       if (progress) progress(double(end) / source_.height());
     }
     writer.commit();
@@ -283,7 +278,8 @@ void write_converted_manifest(const fs::path& source, const std::vector<ConvertS
   for (nlohmann::json& object : manifest["objects"]) {
     const auto found = std::ranges::find(converted, object["key"].get<std::string>(), &ConvertSummary::key);
     object["files"] = nlohmann::json::array();
-    if (found != converted.end()) object["files"].push_back(found->file.filename().string());
+    if (found == converted.end()) continue;
+    for (const fs::path& file : found->files) object["files"].push_back(file.filename().string());
   }
   write_atomically(folder / "manifest.json", manifest.dump(2) + "\n");
 }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rnmbake {
 
@@ -18,11 +19,12 @@ struct ConvertOptions {
   CodecOptions codec;
   bool world = false;  // layers in world space, by the frames that a bake with --frames stores
   Depth depth = Depth::half;
+  bool split = false;  // a file for each layer, for engines that know none: floor.l0.exr
 };
 
 struct ConvertSummary {
   std::string key;
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;  // one, or one for each layer
   EncodeCounts counts;          // of covered texels, or of all where the lightmap does not say which are
   std::size_t beyond_half = 0;  // values clamped to the range of half floats
   std::size_t without_frame =
@@ -33,11 +35,11 @@ struct ConvertSummary {
 /// into is make_codec()'s to say.
 [[nodiscard]] std::optional<std::string> convert_obstacle(const LightmapMetadata& metadata);
 
-/// Writes `file` (.exr, whole or not at all): the codec's layers, and coverage and frames as they are. Baked
-/// maps are taken as they are; of a lightmap that was converted before, what its own decoder returns for the
-/// directions that it was made from. `progress`: the share that is done. Throws Error(unsupported), naming
-/// the lightmap, where there is an obstacle, make_codec() refuses the directions, or world space was asked
-/// for and no frames are there; else as load_lightmap().
+/// Writes `file` (.exr, whole or not at all; with `split` one beside it for each layer): the codec's layers,
+/// and coverage and frames as they are. Baked maps are taken as they are; of a lightmap that was converted
+/// before, what its own decoder returns for the directions that it was made from. `progress`: the share that
+/// is done. Throws Error(unsupported), naming the lightmap, where there is an obstacle, make_codec() refuses
+/// the directions, or world space was asked for and no frames are there; else as load_lightmap().
 [[nodiscard]] ConvertSummary convert_lightmap(const LightmapPlace& place, const ConvertOptions& options,
                                               const std::filesystem::path& file,
                                               const std::function<void(double)>& progress = {});

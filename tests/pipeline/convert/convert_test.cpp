@@ -198,6 +198,27 @@ TEST_F(Convert, LeavesOtherLayersAsTheyAre) {
   EXPECT_EQ(std::get<std::string>(to.attributes.at("rnmbake:object")), "floor");
 }
 
+/// Split or not, the same numbers; and what was split is read again as one lightmap.
+TEST_F(Convert, SplitsIntoOneFileForEachLayer) {
+  const auto source = written("baked.exr", baked());
+  (void)convert(source, "sh2", "whole.exr");
+  const ConvertSummary split =
+      convert_lightmap({"floor", {source}, {}}, {{"sh2"}, false, Depth::full, true}, at("split.exr"));
+  std::vector<std::string> names;
+  for (const auto& file : split.files) names.push_back(file.filename().string());
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"split.l0.exr", "split.l1x.exr", "split.l1y.exr", "split.l1z.exr",
+                                      "split.coverage.exr", "split.normal.exr", "split.tangent.exr"}));
+  const LightmapPlace place{"floor", split.files, {}};
+  const LoadedLightmap parts = load_lightmap(place);
+  EXPECT_EQ(parts.metadata.convention, "sh2");
+  const LayeredImage whole = read_image(at("whole.exr"));
+  for (const Layer& layer : whole.layers)
+    EXPECT_EQ(parts.image.find(layer.name)->pixels.data(), layer.pixels.data());
+  (void)convert_lightmap(place, {{"rnm"}, false, Depth::full}, at("back.exr"));
+  EXPECT_LT(bakes_apart(source, at("back.exr")), few_roundings);
+}
+
 TEST_F(Convert, GivesTheSameBytesAgain) {
   const auto source = written("baked.exr", baked());
   (void)convert(source, "geomerics", "one.exr");
