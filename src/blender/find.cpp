@@ -63,7 +63,7 @@ fs::path named(const std::string& wanted, const char* by) {
   if (wanted.find('/') == std::string::npos) {
     if (const auto found = in_path(wanted)) return *found;
   }
-  const fs::path path = fs::absolute(wanted);
+  fs::path path = fs::absolute(wanted);
   if (fs::is_directory(path) && can_run(path / "blender")) return path / "blender";
   if (!fs::exists(path))
     fail(ExitCode::environment, "{}: there is no {}; give the path of a Blender", by, wanted);

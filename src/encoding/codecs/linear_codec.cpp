@@ -44,7 +44,7 @@ void sg_values(const Vec3d& n, std::span<double> values) {
 void rotate_sh2(std::span<Vec3> layers, const TexelFrame& frame) {
   for (int c = 0; c < 3; ++c) {
     const Vec3 v = frame.stored(Vec3(layers[1][c], layers[2][c], layers[3][c]));
-    for (int axis = 0; axis < 3; ++axis) layers[static_cast<std::size_t>(1 + axis)][c] = v[axis];
+    for (int axis = 0; axis < 3; ++axis) layers[1 + static_cast<std::size_t>(axis)][c] = v[axis];
   }
 }
 
