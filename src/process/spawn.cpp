@@ -38,7 +38,8 @@ std::vector<std::string> changed_environment(const ProcessOptions& options) {
     }
   }
   std::vector<std::string> lines;
-  for (const auto& [name, value] : variables) lines.push_back(name + '=' + value);
+  lines.reserve(variables.size());
+  for (const auto& [name, value] : variables) lines.push_back(fmt::format("{}={}", name, value));
   return lines;
 }
 
@@ -48,7 +49,7 @@ std::string in_path(const std::string& program) {
   std::string rest = path != nullptr ? path : "/usr/bin:/bin";
   while (!rest.empty()) {
     const std::size_t colon = rest.find(':');
-    const std::string candidate = rest.substr(0, colon) + '/' + program;
+    std::string candidate = rest.substr(0, colon) + '/' + program;
     if (::access(candidate.c_str(), X_OK) == 0) return candidate;
     rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
   }
@@ -57,6 +58,7 @@ std::string in_path(const std::string& program) {
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> out;
+  out.reserve(texts.size() + 1);
   for (std::string& text : texts) out.push_back(text.data());
   out.push_back(nullptr);
   return out;
