@@ -33,6 +33,7 @@ RecipeFaults faults_named(const std::vector<std::string>& names, const std::stri
       faults.*found->on = true;
     } else if (name != "none" || names.size() > 1) {
       std::vector<std::string> flags;
+      flags.reserve(known_faults.size());
       for (const NamedFault& fault : known_faults) flags.emplace_back(fault.flag);
       fail(ExitCode::usage, "{}: '{}' is no fault of the recipe; give {}, or none alone{}", where, name,
            fmt::join(flags, ", "), did_you_mean(name, flags));
