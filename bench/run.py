@@ -7,6 +7,7 @@ import json
 import time
 from pathlib import Path
 
+import convert
 import dispatch
 import measure
 import memory
@@ -17,7 +18,8 @@ import startup
 import tracing
 
 BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "memory": memory, "preparation": preparation,
-              "startup": startup, "tracing": tracing, "ssbump": ssbump}
+              "startup": startup, "tracing": tracing, "ssbump": ssbump,
+              "convert": convert}
 RESULTS = Path(__file__).resolve().parent / "results"
 DOCUMENT = measure.ROOT / "docs/performance.md"
 INTRODUCTION = """# Performance
