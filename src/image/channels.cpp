@@ -84,6 +84,7 @@ std::vector<ChannelGroup> channel_groups(const std::vector<std::string>& names) 
     group.index.push_back(static_cast<int>(i));
   }
   std::vector<ChannelGroup> list;
+  list.reserve(groups.size());
   for (auto& [layer, group] : groups) list.push_back(std::move(group));
   return list;
 }

@@ -177,7 +177,8 @@ class Search {
       return uv != nullptr && hash == uv_hash(*uv) ? ""
                                                    : "its UVs are others since it was baked; bake it again";
     }
-    if (candidate.entry.at("object_in_scene") == "") return "";  // the user kept the UVs, or nobody did
+    if (candidate.entry.at("object_in_scene").get<std::string>().empty())
+      return "";  // the user kept the UVs, or nobody did
     if (saved.empty())
       return fmt::format("its UVs were in {}, which is gone", brief(manifest_.at("scene_with_uvs")));
     const SceneSurvey& there = saved_survey(saved);

@@ -38,9 +38,11 @@ LightmapRows::LightmapRows(const LightmapPlace& place) : file_(place.files.front
 }
 
 void LightmapRows::open(const std::filesystem::path& path) {
-  File file{std::make_unique<PictureReader>(path), {}};
+  const bool is_first = files_.empty();
+  File& file = files_.emplace_back();
+  file.reader = std::make_unique<PictureReader>(path);
   const PictureFacts& facts = file.reader->facts();
-  if (files_.empty()) {
+  if (is_first) {
     width_ = facts.width;
     height_ = facts.height;
   } else if (width_ != facts.width || height_ != facts.height) {
@@ -53,7 +55,6 @@ void LightmapRows::open(const std::filesystem::path& path) {
   for (const ChannelGroup& layer : file.layers) header_.layers.push_back({layer.layer, layer.channels, {}});
   auto attributes = facts.attributes;
   header_.attributes.merge(std::move(attributes));
-  files_.push_back(std::move(file));
 }
 
 LayeredImage LightmapRows::read(int begin, int end) {

@@ -26,7 +26,10 @@ LightmapWriter::LightmapWriter(const std::filesystem::path& file, const LayeredI
 }
 
 void LightmapWriter::add(const std::filesystem::path& file, const PictureForm& form) {
-  parts_.push_back({std::make_unique<PictureWriter>(file, form), channels_, form.channels.size()});
+  Part& part = parts_.emplace_back();
+  part.writer = std::make_unique<PictureWriter>(file, form);
+  part.first = channels_;
+  part.channels = form.channels.size();
   channels_ += form.channels.size();
   files_.push_back(file);
 }

@@ -19,7 +19,7 @@ std::vector<std::string> node_group_names() {
 }
 
 std::vector<std::string> checked_node_groups(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = node_group_names();
+  std::vector<std::string> known = node_group_names();
   if (names.empty()) return known;
   std::vector<std::string> chosen;
   for (const std::string& name : names) {

@@ -122,6 +122,7 @@ std::vector<Part> cut_by_grid(const SceneSurvey& survey, const Target& target, c
     part.triangles.push_back(t);
   }
   std::vector<Part> list;
+  list.reserve(parts.size());
   for (auto& [cell, part] : parts) list.push_back(std::move(part));
   return list;
 }

@@ -25,7 +25,7 @@ std::vector<int> colours_of(const std::vector<std::string>& names, const std::st
   if (!colour.empty()) return colour;
   if (names.size() == 1) return {0};
   for (const char* grey : {"Y", "I"}) {
-    const auto found = places_of(names, grey);
+    auto found = places_of(names, grey);
     if (!found.empty() && places_of(names, "XY").empty()) return found;
   }
   fail(ExitCode::invalid_input, "{} holds no colours: its channels are {}; give a picture with R, G and B",

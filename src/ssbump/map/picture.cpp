@@ -22,7 +22,7 @@ FloatImage pixels_of(PictureReader& reader, const std::string& file) {
   if (const auto alpha = places_of(facts.channels, "A"); !alpha.empty()) places.push_back(alpha.front());
   FloatImage all(facts.width, facts.height, channels);
   reader.read(0, facts.height, 0, channels, all.data());
-  const FloatImage pixels = picked(all, places);
+  FloatImage pixels = picked(all, places);
   const auto bad = std::ranges::find_if_not(pixels.data(), [](float value) { return std::isfinite(value); });
   if (bad != pixels.data().end()) {
     const auto texel = (bad - pixels.data().begin()) / pixels.channels();
