@@ -61,6 +61,7 @@ const ShaderEngine& engine_named(const std::string& name) {
   const auto found = std::ranges::find(engines, name, &ShaderEngine::name);
   if (found != engines.end()) return *found;
   std::vector<std::string> known;
+  known.reserve(engines.size());
   for (const ShaderEngine& engine : engines) known.emplace_back(engine.name);
   const std::string hint = did_you_mean(name, known);
   fail(ExitCode::usage, "no engine is called '{}'{}", name,

@@ -27,7 +27,7 @@ Packing pack_usefully(const Mesh& mesh, const Charts& charts, double area, doubl
   const auto filled = [&](const Packing& packing) { return area * packing.scale * packing.scale; };
   Packing packing = pack(mesh, charts, margin);
   if (margin == 0 || filled(packing) >= least_area) return packing;
-  const Packing tight = pack(mesh, charts, 0);
+  Packing tight = pack(mesh, charts, 0);
   while (filled(packing) < least_area && filled(packing) < least_share * filled(tight)) {
     margin /= 2;
     if (margin < least_margin) {

@@ -60,7 +60,7 @@ class PackedCodec : public Codec {
       const PackedNumbers numbers = numbers_in(frame, bakes_of(irradiance, colour), counts);
       layers[0][c] = static_cast<float>(numbers.a);
       for (int axis = 0; axis < 3; ++axis)
-        layers[static_cast<std::size_t>(1 + axis)][c] = static_cast<float>(numbers.t[axis]);
+        layers[1 + static_cast<std::size_t>(axis)][c] = static_cast<float>(numbers.t[axis]);
     }
     return counts;
   }
