@@ -88,7 +88,7 @@ FourNumbers nearest_numbers(Lobe lobe, const FourBakes& bakes) {
 }
 
 FourNumbers refit(Lobe lobe, const FourBakes& bakes) {
-  const FourNumbers nearest = nearest_numbers(lobe, bakes);
+  FourNumbers nearest = nearest_numbers(lobe, bakes);
   if (nearest.has_converged || !(bakes[0] > 0)) return nearest;
   const Vec3d ratio = flat_kept(lobe, bakes, four_directions(), nearest.v, 2);
   const double a = bakes[0] / lobe(1, ratio, four_directions()[0]).value;

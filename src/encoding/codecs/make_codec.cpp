@@ -70,6 +70,7 @@ void check_packing(const CodecOptions& options, Maker maker) {
 
 std::vector<std::string> codec_names() {
   std::vector<std::string> names;
+  names.reserve(makers.size());
   for (const NamedMaker& maker : makers) names.emplace_back(maker.name);
   return names;
 }
