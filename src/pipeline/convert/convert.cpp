@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int band_rows = 64;  // whole zip blocks, and more than FrameRows::reach
+constexpr int band_rows = LightmapRows::band;
+static_assert(band_rows > FrameRows::reach);  // frames are looked for in the next band, and no further
 
 /// The decoder returns the very bakes which its numbers were made from. Of more than four, sh2 is a fit.
 bool keeps_bakes(const LightmapMetadata& metadata) {

@@ -16,6 +16,8 @@ namespace rnmbake {
 
 class LightmapRows {
  public:
+  static constexpr int band = 64;  // rows to read at once: whole zip blocks, and little memory
+
   /// Throws as load_lightmap().
   explicit LightmapRows(const LightmapPlace& place);
 

@@ -61,12 +61,12 @@ std::vector<std::vector<std::string>> cells(const std::vector<EncodingErrors>& e
 
 }  // namespace
 
-struct EncodingStudy::Studied {
-  EncodingErrors errors;
+namespace {
+
+struct StudiedCodec {
+  EncodingErrors errors;  // what they are of; the figures are 0
   std::unique_ptr<const Codec> codec;
   std::vector<std::size_t> feeds;  // [directions of the codec] -> directions of the study
-  std::array<double, tilt_limits.size()> squares{}, sums{};
-  double flat_sum = 0;
 
   /// Takes the first of the sets, small ones first, that `fed` holds and the codec can be made from.
   void feed(const BasisSet& fed) {
@@ -88,54 +88,84 @@ struct EncodingStudy::Studied {
       return;
     }
   }
-
-  /// Sums over the normals of one light, each band by itself.
-  void add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat,
-           std::span<const Vec3> normals) {
-    std::vector<Vec3> layers(codec->layers().size()), irradiance;
-    for (const std::size_t place : feeds) irradiance.push_back(at_fed[place]);
-    (void)codec->encode(irradiance, layers);
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      const Vec3 error = codec->decode(layers, normals[i]) - at_normals[i];
-      const double degrees = std::acos(std::clamp(double(normals[i].z), -1.0, 1.0)) * 180 / pi;
-      for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
-        if (degrees > tilt_limits[band] + 1e-3) continue;
-        squares[band] += double(error.dot(error));
-        sums[band] += double(error.x) + error.y + error.z;
-      }
-    }
-    const Vec3 error = codec->decode(layers, Vec3(0, 0, 1)) - flat;
-    flat_sum += double(error.x) + error.y + error.z;
-  }
 };
 
-EncodingStudy::EncodingStudy(const BasisSet& fed, std::vector<Vec3> normals) : normals_(std::move(normals)) {
+/// The narrowest of tilt_limits that holds the normal.
+std::size_t band_of(const Vec3& normal) {
+  const double degrees = std::acos(std::clamp(double(normal.z), -1.0, 1.0)) * 180 / pi;
+  const auto* limit = std::ranges::find_if(tilt_limits, [&](double most) { return degrees <= most + 1e-3; });
+  return static_cast<std::size_t>(limit - tilt_limits.begin());
+}
+
+double sum_of(const Vec3& colour) {
+  return double(colour.x) + colour.y + colour.z;
+}
+
+}  // namespace
+
+struct EncodingStudy::Setup {
+  std::vector<StudiedCodec> codecs;
+  std::vector<Vec3> normals;
+  std::vector<std::size_t> bands;  // [normals]; tilt_limits.size(): steeper than all
+  std::size_t flat = 0;            // place among the directions
+};
+
+EncodingStudy::EncodingStudy(const BasisSet& fed, const std::vector<Vec3>& normals) {
+  auto setup = std::make_shared<Setup>();
   for (const CodecOptions& options : encodings_to_study()) {
-    Studied& studied = studied_.emplace_back();
+    StudiedCodec& studied = setup->codecs.emplace_back();
     studied.errors.label = label_of(options);
     studied.errors.codec = options;
     studied.feed(fed);
   }
+  setup->normals = normals;
+  for (const Vec3& normal : normals) setup->bands.push_back(band_of(normal));
+  setup->flat = needed_direction(fed, flat_direction(), "flat");
+  sums_.resize(setup->codecs.size());
+  setup_ = std::move(setup);
 }
 
-EncodingStudy::~EncodingStudy() = default;
-EncodingStudy::EncodingStudy(EncodingStudy&&) noexcept = default;
+EncodingStudy EncodingStudy::another() const {
+  EncodingStudy empty = *this;
+  empty.sums_.assign(sums_.size(), {});
+  empty.flat_squares_ = empty.flat_sum_ = 0;
+  empty.lights_ = 0;
+  return empty;
+}
 
-void EncodingStudy::add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat) {
-  for (Studied& studied : studied_)
-    if (studied.codec) studied.add(at_fed, at_normals, flat, normals_);
+void EncodingStudy::add_codec(std::size_t codec, std::span<const Vec3> at_fed,
+                              std::span<const Vec3> at_normals) {
+  const StudiedCodec& studied = setup_->codecs[codec];
+  if (!studied.codec) return;
+  Sums& sums = sums_[codec];
+  std::vector<Vec3> layers(studied.codec->layers().size()), irradiance;
+  irradiance.reserve(studied.feeds.size());
+  for (const std::size_t place : studied.feeds) irradiance.push_back(at_fed[place]);
+  (void)studied.codec->encode(irradiance, layers);
+  for (std::size_t i = 0; i < at_normals.size(); ++i) {
+    const Vec3 error = studied.codec->decode(layers, setup_->normals[i]) - at_normals[i];
+    if (setup_->bands[i] == tilt_limits.size()) continue;
+    sums.squares[setup_->bands[i]] += double(error.dot(error));
+    sums.errors[setup_->bands[i]] += sum_of(error);
+  }
+  sums.flat_error += sum_of(studied.codec->decode(layers, Vec3(0, 0, 1)) - at_fed[setup_->flat]);
+}
+
+void EncodingStudy::add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals) {
+  for (std::size_t codec = 0; codec < sums_.size(); ++codec) add_codec(codec, at_fed, at_normals);
+  const Vec3& flat = at_fed[setup_->flat];
   flat_squares_ += double(flat.dot(flat));
-  flat_sum_ += double(flat.x) + flat.y + flat.z;
+  flat_sum_ += sum_of(flat);
   ++lights_;
 }
 
 void EncodingStudy::merge(const EncodingStudy& other) {
-  for (std::size_t i = 0; i < studied_.size(); ++i) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
     for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
-      studied_[i].squares[band] += other.studied_[i].squares[band];
-      studied_[i].sums[band] += other.studied_[i].sums[band];
+      sums_[i].squares[band] += other.sums_[i].squares[band];
+      sums_[i].errors[band] += other.sums_[i].errors[band];
     }
-    studied_[i].flat_sum += other.studied_[i].flat_sum;
+    sums_[i].flat_error += other.sums_[i].flat_error;
   }
   flat_squares_ += other.flat_squares_;
   flat_sum_ += other.flat_sum_;
@@ -143,24 +173,20 @@ void EncodingStudy::merge(const EncodingStudy& other) {
 }
 
 std::vector<EncodingErrors> EncodingStudy::errors() const {
-  std::array<double, tilt_limits.size()> normals{};
-  for (const Vec3& normal : normals_) {
-    const double degrees = std::acos(std::clamp(double(normal.z), -1.0, 1.0)) * 180 / pi;
-    for (std::size_t band = 0; band < tilt_limits.size(); ++band)
-      if (degrees <= tilt_limits[band] + 1e-3) ++normals[band];
-  }
   std::vector<EncodingErrors> all;
-  for (const Studied& studied : studied_) {
-    EncodingErrors errors = studied.errors;
-    if (errors.unfit.empty() && flat_squares_ > 0) {
-      for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
-        if (normals[band] == 0) continue;
-        errors.rms[band] = std::sqrt(studied.squares[band] / (normals[band] * flat_squares_));
-        errors.bias[band] = studied.sums[band] / (normals[band] * flat_sum_);
-      }
-      errors.flat_bias = studied.flat_sum / flat_sum_;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    EncodingErrors& errors = all.emplace_back(setup_->codecs[i].errors);
+    if (!errors.unfit.empty() || !(flat_squares_ > 0)) continue;
+    double squares = 0, sum = 0, normals = 0;
+    for (std::size_t band = 0; band < tilt_limits.size(); ++band) {
+      squares += sums_[i].squares[band];
+      sum += sums_[i].errors[band];
+      normals += double(std::ranges::count(setup_->bands, band));
+      if (normals == 0) continue;
+      errors.rms[band] = std::sqrt(squares / (normals * flat_squares_));
+      errors.bias[band] = sum / (normals * flat_sum_);
     }
-    all.push_back(std::move(errors));
+    errors.flat_bias = sums_[i].flat_error / flat_sum_;
   }
   return all;
 }

@@ -31,18 +31,18 @@ struct EncodingErrors {
 /// count for nothing and need no limit.
 class EncodingStudy {
  public:
-  /// `fed`: directions with known irradiance; each codec is made from the smallest set of
+  /// `fed`: directions with known irradiance, flat among them; each codec is made from the smallest set of
   /// encoding/direction_sets.h among them that feeds it. `normals`: unit, tangent space, where they are
   /// tested.
-  EncodingStudy(const BasisSet& fed, std::vector<Vec3> normals);
-  ~EncodingStudy();
-  EncodingStudy(EncodingStudy&&) noexcept;
-  EncodingStudy& operator=(EncodingStudy&&) = delete;
+  EncodingStudy(const BasisSet& fed, const std::vector<Vec3>& normals);
 
-  /// One light: E/pi, RGB, at each direction of `fed`, at each of the normals, and at the surface's own.
-  void add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals, const Vec3& flat);
+  /// Of the same codecs and normals, without a light yet: for another thread.
+  [[nodiscard]] EncodingStudy another() const;
 
-  /// Adds what another study of the same directions and normals summed up.
+  /// One light: E/pi, RGB, at each direction of `fed` and at each of the normals.
+  void add(std::span<const Vec3> at_fed, std::span<const Vec3> at_normals);
+
+  /// Adds the lights of another() one.
   void merge(const EncodingStudy& other);
 
   [[nodiscard]] std::size_t lights() const { return lights_; }
@@ -51,9 +51,16 @@ class EncodingStudy {
   [[nodiscard]] std::vector<EncodingErrors> errors() const;
 
  private:
-  struct Studied;
-  std::vector<Vec3> normals_;
-  std::vector<Studied> studied_;
+  struct Setup;
+  struct Sums {
+    std::array<double, tilt_limits.size()> squares{}, errors{};  // of the normals whose band it is
+    double flat_error = 0;
+  };
+
+  void add_codec(std::size_t codec, std::span<const Vec3> at_fed, std::span<const Vec3> at_normals);
+
+  std::shared_ptr<const Setup> setup_;
+  std::vector<Sums> sums_;  // [codecs]
   double flat_squares_ = 0, flat_sum_ = 0;
   std::size_t lights_ = 0;
 };

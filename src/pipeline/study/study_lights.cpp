@@ -50,54 +50,55 @@ FedAndTested divided(const LightmapMetadata& metadata, const std::string& file) 
   return all;
 }
 
-/// One lightmap, 64 rows at a time.
-class TexelsOf {
- public:
-  TexelsOf(const LightmapPlace& place, const FedAndTested& directions)
-      : rows_(place), directions_(directions) {
-    const FedAndTested own = divided(rows_.metadata(), rows_.file());
-    if (std::ranges::equal(own.tested, directions.tested, {}, &BasisDirection::name, &BasisDirection::name))
-      return;
-    fail(ExitCode::invalid_input, "{} has other directions than {}; bake them together", rows_.file(),
+bool same_names(const std::vector<BasisDirection>& a, const std::vector<BasisDirection>& b) {
+  return std::ranges::equal(a, b, {}, &BasisDirection::name, &BasisDirection::name);
+}
+
+/// The layers of these directions, in their order.
+std::vector<const FloatImage*> pictures(const LayeredImage& rows,
+                                        const std::vector<BasisDirection>& directions) {
+  std::vector<const FloatImage*> found;
+  for (const BasisDirection& basis : directions) found.push_back(&rows.find(exr_layer(basis.name))->pixels);
+  return found;
+}
+
+/// The covered texels of some rows.
+void add_texels(const LayeredImage& rows, const FedAndTested& directions, EncodingStudy& study) {
+  const auto fed = pictures(rows, directions.fed.directions), tested = pictures(rows, directions.tested);
+  const Layer* coverage = rows.find("coverage");
+  const EncodingStudy none = study.another();
+  std::mutex mutex;
+  tbb::parallel_for(tbb::blocked_range<int>(0, fed.front()->height(), 8),
+                    [&](const tbb::blocked_range<int>& range) {
+                      EncodingStudy part = none;
+                      std::vector<Vec3> at_fed(fed.size()), at_tested(tested.size());
+                      for (int y = range.begin(); y < range.end(); ++y) {
+                        for (int x = 0; x < fed.front()->width(); ++x) {
+                          if (coverage != nullptr && coverage->pixels.texel(x, y)[0] < 0.5F) continue;
+                          for (std::size_t i = 0; i < fed.size(); ++i)
+                            at_fed[i] = as_colour(fed[i]->texel(x, y));
+                          for (std::size_t i = 0; i < tested.size(); ++i)
+                            at_tested[i] = as_colour(tested[i]->texel(x, y));
+                          part.add(at_fed, at_tested);
+                        }
+                      }
+                      const std::scoped_lock lock(mutex);
+                      study.merge(part);
+                    });
+}
+
+void add_lightmap(const LightmapPlace& place, const FedAndTested& directions, EncodingStudy& study) {
+  LightmapRows lightmap(place);
+  const FedAndTested own = divided(lightmap.metadata(), lightmap.file());
+  if (!same_names(own.fed.directions, directions.fed.directions) ||
+      !same_names(own.tested, directions.tested)) {
+    fail(ExitCode::invalid_input, "{} has other directions than {}; bake them together", lightmap.file(),
          directions.fed.name);
   }
-
-  void add_to(EncodingStudy& study, const std::function<EncodingStudy()>& another) {
-    constexpr int band = 64;
-    for (int begin = 0; begin < rows_.height(); begin += band) {
-      const int end = std::min(begin + band, rows_.height());
-      const LayeredImage rows = rows_.read(begin, end);
-      std::mutex mutex;
-      tbb::parallel_for(tbb::blocked_range<int>(0, end - begin, 8),
-                        [&](const tbb::blocked_range<int>& range) {
-                          EncodingStudy part = another();
-                          for (int y = range.begin(); y < range.end(); ++y) add_row(rows, y, part);
-                          const std::scoped_lock lock(mutex);
-                          study.merge(part);
-                        });
-    }
-  }
-
- private:
-  void add_row(const LayeredImage& rows, int y, EncodingStudy& study) const {
-    const Layer* coverage = rows.find("coverage");
-    std::vector<const FloatImage*> fed, tested;
-    for (const BasisDirection& basis : directions_.fed.directions)
-      fed.push_back(&rows.find(exr_layer(basis.name))->pixels);
-    for (const BasisDirection& basis : directions_.tested)
-      tested.push_back(&rows.find(exr_layer(basis.name))->pixels);
-    std::vector<Vec3> at_fed(fed.size()), at_tested(tested.size());
-    for (int x = 0; x < rows_.width(); ++x) {
-      if (coverage != nullptr && coverage->pixels.texel(x, y)[0] < 0.5F) continue;
-      for (std::size_t i = 0; i < fed.size(); ++i) at_fed[i] = as_colour(fed[i]->texel(x, y));
-      for (std::size_t i = 0; i < tested.size(); ++i) at_tested[i] = as_colour(tested[i]->texel(x, y));
-      study.add(at_fed, at_tested, as_colour(rows.find("")->pixels.texel(x, y)));
-    }
-  }
-
-  LightmapRows rows_;
-  const FedAndTested& directions_;
-};
+  for (int begin = 0; begin < lightmap.height(); begin += LightmapRows::band)
+    add_texels(lightmap.read(begin, std::min(begin + LightmapRows::band, lightmap.height())), directions,
+               study);
+}
 
 }  // namespace
 
@@ -114,7 +115,7 @@ EncodingStudy study_random(std::size_t count, std::uint64_t seed) {
     for (Sun& sun : light) sun.power /= flat;
     for (std::size_t k = 0; k < normals.size(); ++k)
       at_normals[k] = Vec3(static_cast<float>(irradiance(light, Vec3d(normals[k]))));
-    study.add(bakes(light, fed), at_normals, Vec3(1));
+    study.add(bakes(light, fed), at_normals);
   }
   return study;
 }
@@ -131,11 +132,10 @@ EncodingStudy study_lightmaps(const std::filesystem::path& path,
   const FedAndTested directions = divided(first.metadata(), first.file());
   std::vector<Vec3> normals;
   for (const BasisDirection& basis : directions.tested) normals.push_back(basis.direction);
-  const auto another = [&] { return EncodingStudy(directions.fed, normals); };
-  EncodingStudy study = another();
+  EncodingStudy study(directions.fed, normals);
   for (std::size_t i = 0; i < folder.places.size(); ++i) {
     if (progress) progress(double(i) / double(folder.places.size()));
-    TexelsOf(folder.places[i], directions).add_to(study, another);
+    add_lightmap(folder.places[i], directions, study);
   }
   return study;
 }
