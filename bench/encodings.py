@@ -7,30 +7,24 @@ encodings are made from.
 import argparse
 import json
 import pathlib
-import subprocess
 
 import document
-from measure import ROOT
+from measure import RNMBAKE, ROOT, run
 
 PAGE = ROOT / "docs" / "encodings.md"
 SCENES = ("cornell", "cave", "panels")
 
 
-def run(binary, *words):
-    return subprocess.run([binary, *map(str, words)], check=True, capture_output=True, text=True).stdout
-
-
-def table(binary, lights, out):
-    run(binary, "-q", "study", "encodings", *lights, "-o", out)
+def table(lights, out):
+    run([RNMBAKE, "-q", "study", "encodings", *lights, "-o", out])
     return (out / "encodings.md").read_text(encoding="utf-8"), json.loads((out / "encodings.json").read_text())
 
 
-def scene_table(binary, name, args, out):
+def scene_table(name, args, out):
     truth = out / f"{name}-truth"
-    run(binary, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis", ROOT / "scenes" / "study.toml",
-        "--resolution", args.resolution, "--error", args.error,
-        "--depth", "float", "-o", truth)
-    return table(binary, [truth], out / name)
+    run([RNMBAKE, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis", ROOT / "scenes" / "study.toml",
+         "--resolution", args.resolution, "--error", args.error, "--depth", "float", "-o", truth])
+    return table([truth], out / name)
 
 
 def findings(figures):
@@ -49,16 +43,15 @@ def findings(figures):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--binary", default=str(ROOT / "build" / "release" / "rnmbake"))
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out" / "encodings")
     parser.add_argument("--resolution", default="64")
     parser.add_argument("--error", default="1", help="percent of an object's mean")
     args = parser.parse_args()
     page, figures = [], {}
-    text, figures["random"] = table(args.binary, ["random", "--count", "400"], args.out / "random")
+    text, figures["random"] = table(["random", "--count", "400"], args.out / "random")
     page.append(f"## 400 random hemispheres\n\n`rnmbake study encodings random`\n\n{text}")
     for name in SCENES:
-        text, figures[name] = scene_table(args.binary, name, args, args.out)
+        text, figures[name] = scene_table(name, args, args.out)
         lights = figures[name]["lights"]
         page.append(f"## {name}\n\n{lights} texels of `scenes/{name}.py` at {args.resolution} texels a side, traced to {args.error} % "
                     f"of each object's mean.\n\n{text}")

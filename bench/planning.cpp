@@ -4,6 +4,7 @@
 #include "bake/plan.h"
 #include "bake/request.h"
 #include "base/error.h"
+#include "encoding/basis_set.h"
 #include "scene/surface.h"
 #include "scene/survey_parse.h"
 #include "scene/uv_report.h"
@@ -73,13 +74,6 @@ std::vector<Target> targets_of(const SceneSurvey& survey) {
   return targets;
 }
 
-std::vector<BasisDirection> default_bases() {
-  std::vector<BasisDirection> bases{flat_direction()};
-  const BasisSet rnm = rnm_set();
-  bases.insert(bases.end(), rnm.directions.begin(), rnm.directions.end());
-  return bases;
-}
-
 /// Returns the number of receiver triangles.
 std::size_t plan_once(const std::filesystem::path& survey_file, const std::filesystem::path& folder,
                       Laps& laps) {
@@ -87,7 +81,7 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
   const SceneSurvey survey = read_survey(survey_file);
   laps.lap("read survey");
   const std::vector<Target> targets = targets_of(survey);
-  const std::vector<BasisDirection> bases = default_bases();
+  const std::vector<BasisDirection> bases = flat_and_rnm().directions;
   Plan plan;
   laps.lap("targets");
   for (std::size_t i = 0; i < targets.size(); ++i) {

@@ -21,6 +21,11 @@ using Mat44 = Imath::M44d;
   return v * (1 / std::sqrt(v.dot(v)));
 }
 
+/// Unit vector `tilt` radians off z, `azimuth` radians from x towards y.
+[[nodiscard]] inline Vec3d direction_at(double tilt, double azimuth) {
+  return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+}
+
 /// The greatest of a colour's three channels.
 [[nodiscard]] inline float max_channel(const Vec3& colour) {
   return std::max({colour.x, colour.y, colour.z});

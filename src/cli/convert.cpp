@@ -27,52 +27,42 @@ struct ConvertFlags {
   bool json = false;
 };
 
-std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::string> names;
-  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-  return names;
-}
-
 nlohmann::json json_of(const ConvertSummary& summary) {
-  const EncodeCounts& counts = summary.counts;
+  const EncodeCounts& counts = summary.counts.encode;
   return {{"key", summary.key},
-          {"files", names_of(summary.files)},
+          {"files", file_names(summary.files)},
           {"texels", counts.texels},
           {"non_finite", counts.non_finite},
           {"negative_lobes", counts.negative_lobes},
           {"over_long", counts.over_long},
           {"out_of_range", counts.out_of_range},
           {"unconverged", counts.unconverged},
-          {"beyond_half", summary.beyond_half},
-          {"without_frame", summary.without_frame}};
+          {"beyond_half", summary.counts.beyond_half},
+          {"without_frame", summary.counts.without_frame}};
 }
 
 /// One line for each thing that was bent, with the share of the covered texels.
 void say_what_was_bent(const std::vector<ConvertSummary>& summaries) {
-  ConvertSummary all;
-  for (const ConvertSummary& summary : summaries) {
-    all.counts += summary.counts;
-    all.beyond_half += summary.beyond_half;
-    all.without_frame += summary.without_frame;
-  }
+  ConvertCounts all;
+  for (const ConvertSummary& summary : summaries) all += summary.counts;
   const auto say = [&](std::size_t count, const char* what) {
     if (count == 0) return;
-    log::warn("{} of {} {}", count, counted(all.counts.texels, "texel"), what);
+    log::warn("{} of {} {}", count, counted(all.encode.texels, "texel"), what);
   };
-  say(all.counts.non_finite, "hold NaN or infinite bakes and were written as darkness; bake with --repair");
-  say(all.counts.unconverged,
+  say(all.encode.non_finite, "hold NaN or infinite bakes and were written as darkness; bake with --repair");
+  say(all.encode.unconverged,
       "have no numbers with which the decoder returns the bakes; the nearest were written");
   say(all.without_frame, "have no tangent frame and keep their flat light alone");
   if (all.beyond_half > 0)
     log::warn("{} beyond 65504 clamped; --depth float keeps what is above",
               counted(all.beyond_half, "value"));
   const auto note = [&](std::size_t count, const char* what) {
-    if (count > 0) log::info("{} of {} {}", count, counted(all.counts.texels, "texel"), what);
+    if (count > 0) log::info("{} of {} {}", count, counted(all.encode.texels, "texel"), what);
   };
-  note(all.counts.negative_lobes,
+  note(all.encode.negative_lobes,
        "decode below 0 for some normal tilted up to 60 degrees; clamp in the shader");
-  note(all.counts.out_of_range, "did not fit the packing's range and were fitted again within it");
-  note(all.counts.over_long, "vary with the normal more than light from a whole sphere can (|v| > 2a)");
+  note(all.encode.out_of_range, "did not fit the packing's range and were fitted again within it");
+  note(all.encode.over_long, "vary with the normal more than light from a whole sphere can (|v| > 2a)");
 }
 
 int run_convert(ConvertFlags flags) {

@@ -7,6 +7,7 @@
 #include "image/display_png.h"
 #include "image/layered_exr.h"
 #include "lightmap/decode.h"
+#include "lightmap/layout.h"
 #include "pipeline/ssbump/decode_ssbump.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ LightmapMetadata assumed_metadata(const DecodeOptions& options, const std::strin
 }
 
 LightmapMetadata metadata_of(const DecodeOptions& options, const LayeredImage& image) {
-  const auto layer = image.attributes.find("rnmbake:layer");
+  const auto layer = image.attributes.find(layer_attribute);
   const bool is_flat = layer != image.attributes.end() && layer->second == Attribute(flat_direction().name);
   if (layer != image.attributes.end() && !(is_flat && variant_of(options) == DecodeVariant::single)) {
     refuse(options, "it holds one layer of a lightmap only",

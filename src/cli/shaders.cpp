@@ -5,7 +5,7 @@
 #include "base/log.h"
 #include "base/text_table.h"
 #include "cli/shaders_blender.h"
-#include "pipeline/shaders/node_groups.h"
+#include "encoding/codecs/make_codec.h"
 #include "shaders/catalogue.h"
 #include "shaders/engines.h"
 
@@ -35,8 +35,8 @@ void write_list() {
   for (const ShaderFile& file : shader_files()) shaders.add({"  " + file.name, file.purpose});
   for (const ShaderEngine& engine : shader_engines())
     engines.add({"  " + std::string(engine.name), std::string(engine.purpose)});
-  engines.add({std::string("  ") + blender_engine, fmt::format("Blender: groups of nodes, whose NAMEs are {}",
-                                                               fmt::join(node_group_names(), ", "))});
+  engines.add({std::string("  ") + blender_engine,
+               fmt::format("Blender: groups of nodes, whose NAMEs are {}", fmt::join(codec_names(), ", "))});
   std::cout << "Shaders:\n";
   shaders.write(std::cout);
   std::cout << "\nEngines:\n";

@@ -83,6 +83,12 @@ BasisDirection flat_direction() {
   return {std::string(flat_layers.front()), Vec3(0, 0, 1)};
 }
 
+BasisSet flat_and_rnm() {
+  BasisSet set = rnm_set();
+  set.directions.insert(set.directions.begin(), flat_direction());
+  return set;
+}
+
 std::optional<std::size_t> place_of(const BasisSet& set, const BasisDirection& wanted) {
   const auto found = std::ranges::find_if(set.directions, [&](const BasisDirection& basis) {
     return basis.name == wanted.name && is_near(basis.direction, wanted.direction);

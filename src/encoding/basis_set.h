@@ -28,6 +28,9 @@ struct BasisSet {
 /// The surface normal itself, (0, 0, 1), under the name "flat".
 [[nodiscard]] BasisDirection flat_direction();
 
+/// flat, rnm0, rnm1, rnm2: what a bake holds by default, under the name "rnm".
+[[nodiscard]] BasisSet flat_and_rnm();
+
 /// Where the set holds a direction of that name and (within 1e-3) that vector.
 [[nodiscard]] std::optional<std::size_t> place_of(const BasisSet& set, const BasisDirection& wanted);
 

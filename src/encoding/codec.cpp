@@ -17,9 +17,7 @@ const std::array<Vec3, 13>& probe_normals() {
     for (std::size_t i = 0; i < 6; ++i) {
       const double azimuth = static_cast<double>(i) * pi / 3;
       for (std::size_t ring = 0; ring < 2; ++ring) {
-        const double tilt = static_cast<double>(ring + 1) * pi / 6;
-        made[1 + 6 * ring + i] = Vec3(
-            Vec3d(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)));
+        made[1 + 6 * ring + i] = Vec3(direction_at(static_cast<double>(ring + 1) * pi / 6, azimuth));
       }
     }
     return made;

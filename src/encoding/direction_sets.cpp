@@ -10,8 +10,7 @@ namespace {
 /// Three directions tilted by `tilt` degrees, the first of them at `azimuth`.
 void add_ring(BasisSet& set, double tilt, double azimuth) {
   for (int i = 0; i < 3; ++i) {
-    const double around = (azimuth + 120 * i) * pi / 180, off = tilt * pi / 180;
-    const Vec3d direction(std::sin(off) * std::cos(around), std::sin(off) * std::sin(around), std::cos(off));
+    const Vec3d direction = direction_at(tilt * pi / 180, (azimuth + 120 * i) * pi / 180);
     set.directions.push_back({fmt::format("d{}", set.directions.size() - 4), Vec3(direction)});
   }
 }
@@ -21,9 +20,8 @@ void add_ring(BasisSet& set, double tilt, double azimuth) {
 std::optional<BasisSet> direction_set(std::string_view name) {
   const bool is_h6 = name == "h6" || name == "sg", is_sh3 = name == "sh3";
   if (!is_h6 && !is_sh3 && name != "l1") return std::nullopt;
-  BasisSet set = rnm_set();
+  BasisSet set = flat_and_rnm();
   set.name = name;
-  set.directions.insert(set.directions.begin(), flat_direction());
   add_ring(set, std::acos(std::sqrt(1.0 / 3)) * 180 / pi, 60);
   if (is_h6 || is_sh3) add_ring(set, 30, 0);
   if (is_sh3) add_ring(set, 80, 60);

@@ -7,8 +7,20 @@
 
 #include <array>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
 namespace rnmbake {
+
+/// a and v of E/pi = a + v . n through the four bakes of one colour; `basis`: rnm_basis().
+template <typename Number>
+[[nodiscard]] std::pair<Number, Imath::Vec3<Number>> linear_through(
+    Number flat, const std::array<Number, 3>& rnm, const std::array<Imath::Vec3<Number>, 3>& basis) {
+  const auto sum = basis[0] * rnm[0] + basis[1] * rnm[1] + basis[2] * rnm[2];
+  const Number mean = (rnm[0] + rnm[1] + rnm[2]) / 3;
+  const Number up = (flat - mean) / (1 - basis[0].z);
+  return {flat - up, {sum.x, sum.y, up}};
+}
 
 /// Irradiance linear in the normal (SH bands 0 and 1): E(n)/pi = ambient + gradient . n, for each of R, G, B.
 struct LinearLight {
@@ -28,11 +40,8 @@ struct LinearLight {
   const auto basis = rnm_basis();
   LinearLight light;
   for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 sum = basis[0] * rnm[0][c] + basis[1] * rnm[1][c] + basis[2] * rnm[2][c];
-    const float mean = (rnm[0][c] + rnm[1][c] + rnm[2][c]) / 3;
-    const float up = (flat[c] - mean) / (1 - basis[0].z);
-    light.gradient[c] = {sum.x, sum.y, up};
-    light.ambient[c] = flat[c] - up;
+    std::tie(light.ambient[c], light.gradient[c]) =
+        linear_through(flat[c], std::array{rnm[0][c], rnm[1][c], rnm[2][c]}, basis);
   }
   return light;
 }

@@ -80,11 +80,4 @@ inline std::vector<Vec3> bakes(const Hemisphere& grey, const BasisSet& set) {
   return bakes(grey, grey, grey, set);
 }
 
-/// flat, rnm0, rnm1, rnm2.
-inline BasisSet flat_and_rnm() {
-  BasisSet set = rnm_set();
-  set.directions.insert(set.directions.begin(), flat_direction());
-  return set;
-}
-
 }  // namespace rnmbake

@@ -1,6 +1,7 @@
 #include "encoding/refit.h"
 
 #include "encoding/fit/gauss_newton.h"
+#include "encoding/linear_light.h"
 #include "encoding/rnm.h"
 
 #include <algorithm>
@@ -56,15 +57,10 @@ const std::array<Vec3d, 4>& four_directions() {
 }
 
 FourNumbers linear_numbers(const FourBakes& bakes) {
-  const auto& directions = four_directions();
-  Vec3d sum(0);
-  double mean = 0;
-  for (std::size_t i = 1; i < 4; ++i) {
-    sum += directions[i] * bakes[i];
-    mean += bakes[i] / 3;
-  }
-  const double up = (bakes[0] - mean) / (1 - directions[1].z);
-  return {bakes[0] - up, {sum.x, sum.y, up}, true};
+  const auto& [up, b0, b1, b2] = four_directions();
+  const auto [a, v] =
+      linear_through(bakes[0], std::array{bakes[1], bakes[2], bakes[3]}, std::array{b0, b1, b2});
+  return {a, v, true};
 }
 
 FourNumbers nearest_numbers(Lobe lobe, const FourBakes& bakes) {

@@ -17,8 +17,7 @@ namespace rnmbake {
     std::array<Vec3d, 6> made{Vec3d(0, 0, 1)};
     const double tilt = 65 * pi / 180;
     for (std::size_t i = 0; i < 5; ++i) {
-      const double azimuth = static_cast<double>(i) * 2 * pi / 5;
-      made[i + 1] = {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+      made[i + 1] = direction_at(tilt, static_cast<double>(i) * 2 * pi / 5);
     }
     return made;
   }();

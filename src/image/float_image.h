@@ -1,6 +1,8 @@
 // image/float_image.h - a picture in memory: 32-bit floats, interleaved channels, row 0 on top.
 #pragma once
 
+#include "base/math.h"
+
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -41,5 +43,11 @@ class FloatImage {
   int width_ = 0, height_ = 0, channels_ = 0;
   std::vector<float> data_;
 };
+
+/// The first three channels of a texel: a colour or a vector.
+[[nodiscard]] inline Vec3 vec3_at(const FloatImage& image, int x, int y) {
+  const auto texel = image.texel(x, y);
+  return {texel[0], texel[1], texel[2]};
+}
 
 }  // namespace rnmbake

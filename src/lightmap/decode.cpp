@@ -71,7 +71,7 @@ std::optional<std::string> rnm_obstacle(const LightmapMetadata& metadata, Decode
 }  // namespace
 
 Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata) {
-  Lightmap lightmap{metadata, {}, {}, {}};
+  Lightmap lightmap{metadata, {}, {}, {}, {}};
   for (const Layer& layer : image.layers) {
     const auto places = places_of(layer.channels, "RGB");
     if (!places.empty()) {
@@ -79,8 +79,9 @@ Lightmap lightmap_of(const LayeredImage& image, const LightmapMetadata& metadata
                               layer.pixels.channels() == 3 ? layer.pixels : picked(layer.pixels, places));
     }
     if (layer.name == "coverage" && layer.pixels.channels() == 1) lightmap.coverage = layer.pixels;
-    const bool is_frame = layer.name == "tangent" || layer.name == "normal";
-    if (is_frame && metadata.space == "world") lightmap.frames.push_back(layer);
+    if (metadata.space != "world") continue;
+    if (layer.name == "tangent") lightmap.tangent = layer.pixels;
+    if (layer.name == "normal") lightmap.normal = layer.pixels;
   }
   return lightmap;
 }
@@ -164,8 +165,9 @@ void LightmapDecoder::take_encoded(Lightmap& lightmap) {
            metadata_.convention, name);
     }
   }
-  frames_ = std::move(lightmap.frames);
-  if (metadata_.space == "world" && frames_.size() < 2) {
+  tangent_ = std::move(lightmap.tangent);
+  normal_ = std::move(lightmap.normal);
+  if (metadata_.space == "world" && (tangent_.empty() || normal_.empty())) {
     fail(ExitCode::unsupported,
          "this lightmap is in world space and has no layers tangent and normal; convert it again from a bake "
          "with "
@@ -190,9 +192,7 @@ Vec3 LightmapDecoder::encoded_at(const std::array<Tap, 4>& taps, const Vec3& nor
   for (const FloatImage& layer : encoded_) values.push_back(colour(layer, taps));
   if (metadata_.space != "world") return codec_->decode(values, normal);
   const Tap& most = *std::ranges::max_element(taps, {}, &Tap::weight);
-  const bool normal_first = frames_[0].name == "normal";
-  const auto frame = frame_at(&frames_[normal_first ? 1 : 0], &frames_[normal_first ? 0 : 1], most.x, most.y,
-                              metadata_.green);
+  const auto frame = frame_at(tangent_, normal_, most.x, most.y, metadata_.green);
   return codec_->decode(values, frame.value_or(TexelFrame{}).stored(normal));
 }
 
@@ -223,10 +223,7 @@ FloatImage decode(Lightmap lightmap, const NormalPicture& normal_map, DecodeVari
   const FloatImage& normals = normal_map.normals;
   const LightmapDecoder decoder(std::move(lightmap), variant);
   return decode_all(decoder, FloatImage(normals.width(), normals.height(), 3), normal_map.green,
-                    [&](int x, int y) {
-                      const auto n = normals.texel(x, y);
-                      return Vec3(n[0], n[1], n[2]);
-                    });
+                    [&](int x, int y) { return vec3_at(normals, x, y); });
 }
 
 FloatImage decode(Lightmap lightmap, const Vec3& normal, Green green, DecodeVariant variant) {

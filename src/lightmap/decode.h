@@ -26,7 +26,7 @@ struct Lightmap {
   LightmapMetadata metadata;
   std::map<std::string, FloatImage, std::less<>> layers;  // RGB, by name; the plain one is "flat"
   FloatImage coverage;                                    // one channel; empty: the file has none
-  std::vector<Layer> frames;  // `tangent` and `normal`, of a lightmap in world space
+  FloatImage tangent, normal;                             // of a lightmap in world space: lightmap/frames.h
 
   [[nodiscard]] bool holds(const Encoding& encoding) const;
 
@@ -94,7 +94,7 @@ class LightmapDecoder {
   std::array<FloatImage, 3> rnm_;       // the same
   std::shared_ptr<const Codec> codec_;  // of the variant `encoded`, with its layers
   std::vector<FloatImage> encoded_;
-  std::vector<Layer> frames_;
+  FloatImage tangent_, normal_;
   FloatImage coverage_;
   DecodeVariant variant_;
 };

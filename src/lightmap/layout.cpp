@@ -12,7 +12,7 @@ std::vector<LayerFile> one_file_per_layer(LayeredImage lightmap) {
     LayerFile file;
     file.name = name_of_exr_layer(layer.name);
     file.image.attributes = lightmap.attributes;
-    file.image.attributes["rnmbake:layer"] = file.name;
+    file.image.attributes[layer_attribute] = file.name;
     if (layer.channels == std::vector<std::string>{""}) layer.channels = {"Y"};
     layer.name.clear();
     file.image.layers.push_back(std::move(layer));

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "encoding/codecs/make_codec.h"
 #include "encoding/encodings.h"
+#include "lightmap/layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace rnmbake {
 namespace {
 
 const std::string prefix = "rnmbake:";
-constexpr const char* baked_codec = "rnm";  // layers are the bakes: no other numbers
 
 /// Attributes of one file by their short names; every message names the file.
 class Header {
@@ -82,7 +82,7 @@ void check_layer(const Header& header, const LayeredImage& image, const std::str
 }
 
 std::vector<BasisDirection> bases_of(const Header& header, const LayeredImage& image) {
-  const bool is_whole = !image.attributes.contains(prefix + "layer");  // see lightmap/layout.h
+  const bool is_whole = !image.attributes.contains(layer_attribute);
   const bool holds_bakes = !is_codec(header.required<std::string>("convention"));
   std::vector<BasisDirection> bases;
   for (const std::string& name : split(header.required<std::string>("basis"))) {

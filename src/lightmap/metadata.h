@@ -19,6 +19,7 @@ enum class Green { y_up, y_down };
 [[nodiscard]] const char* name_of(Green green);
 [[nodiscard]] const char* name_of(Normalize normalize);
 
+inline constexpr const char* baked_codec = "rnm";  // as a codec: the layers are the bakes
 inline constexpr const char* clipped_hemisphere_integral = "clipped hemisphere integral";
 
 /// Everything under the attribute names "rnmbake:..." (docs/lightmap-format.md). The first block decides what

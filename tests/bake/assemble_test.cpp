@@ -1,6 +1,7 @@
 #include "bake/assemble.h"
 
 #include "bake/fixture.h"
+#include "encoding/basis_set.h"
 #include "scene/uv_raster.h"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ FloatImage bake(const AtlasRect& rect, const Target& target, const Suns& light) 
 struct Scene {
   Surface surface;
   Target target = make_target("thing", 32, 32);
-  std::vector<BasisDirection> bases = default_bases();
+  std::vector<BasisDirection> bases = flat_and_rnm().directions;
   ObjectSettings::Horizon horizon = ObjectSettings::Horizon::identity;
 
   [[nodiscard]] TargetBakes baked(const Suns& light, bool frames = false) const {

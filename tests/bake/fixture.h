@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "scene/surface.h"
 #include "scene/survey.h"
-#include "support/bases.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "bake/plan.h"
 
 #include "bake/fixture.h"
+#include "encoding/basis_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ Plan plan_of(std::size_t targets, const std::vector<int>& samples = {16}) {
   for (std::size_t t = 0; t < targets; ++t) {
     CyclesSettings cycles;
     cycles.samples = samples[t % samples.size()];
-    add_receiver_tasks(plan, t, target, plain_sheets(4), default_bases(), cycles);
+    add_receiver_tasks(plan, t, target, plain_sheets(4), flat_and_rnm().directions, cycles);
   }
   return plan;
 }
@@ -61,7 +62,7 @@ TEST(Units, AreOneForEachBasisAndOneForTheHorizon) {
   for (std::size_t m = 0; m < 5; ++m)
     passes.passes.push_back(sheet_over(0, 0.5, ReceiverPass::Role::moment, m));
   Plan plan;
-  add_receiver_tasks(plan, 7, make_target("a", 64, 64), std::move(passes), default_bases(), {});
+  add_receiver_tasks(plan, 7, make_target("a", 64, 64), std::move(passes), flat_and_rnm().directions, {});
   ASSERT_EQ(plan.tasks.size(), 5U);
   EXPECT_EQ(plan.rects.size(), 10U);
   EXPECT_EQ(plan.tasks[0].name, "flat");
@@ -86,7 +87,7 @@ TEST(Units, LeaveEmptySheetsOut) {
 
 TEST(Units, OfObjectsAreWholeMaps) {
   Plan plan;
-  add_object_tasks(plan, 1, make_target("a", 24, 16), default_bases(), {});
+  add_object_tasks(plan, 1, make_target("a", 24, 16), flat_and_rnm().directions, {});
   ASSERT_EQ(plan.tasks.size(), 4U);
   for (std::size_t b = 0; b < 4; ++b) {
     EXPECT_EQ(plan.tasks[b].basis, b);

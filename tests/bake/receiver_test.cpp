@@ -1,6 +1,7 @@
 #include "bake/receiver.h"
 
 #include "bake/fixture.h"
+#include "encoding/basis_set.h"
 #include "scene/test_meshes.h"
 
 #include <algorithm>
@@ -120,7 +121,8 @@ TEST(RaiseAbove, ConeIsConvex) {
 }
 
 TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
-  const ReceiverPasses passes = make_receiver_passes(flat_square(), default_bases(), Horizon::identity);
+  const ReceiverPasses passes =
+      make_receiver_passes(flat_square(), flat_and_rnm().directions, Horizon::identity);
   ASSERT_EQ(passes.passes.size(), 4U);
   EXPECT_EQ(count(passes, Role::basis), 4U);
   for (std::size_t b = 0; b < 4; ++b) {
@@ -128,7 +130,7 @@ TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
     ASSERT_EQ(passes.passes[b].corners.size(), 6U);
     EXPECT_NEAR(uv_area(passes.passes[b]), 1, 1e-6);
     for (const ReceiverCorner& corner : passes.passes[b].corners)
-      EXPECT_LT((corner.normal - default_bases()[b].direction).length(), 1e-5);
+      EXPECT_LT((corner.normal - flat_and_rnm().directions[b].direction).length(), 1e-5);
   }
   EXPECT_EQ(passes.counts.corners, 24U);
   EXPECT_EQ(passes.counts.corners_below, 0U);
@@ -138,7 +140,7 @@ TEST(ReceiverPasses, OfAPlaneAreOneForEachBasis) {
 
 TEST(ReceiverPasses, OfASmoothCubeNeedTheIdentity) {
   const Surface cube = smooth_cube();
-  const auto bases = default_bases();
+  const auto bases = flat_and_rnm().directions;
   std::size_t below = 0, triangles = 0;
   for (const SurfaceTriangle& triangle : cube.triangles) {
     std::size_t here = 0;
@@ -162,7 +164,7 @@ TEST(ReceiverPasses, OfASmoothCubeNeedTheIdentity) {
 TEST(ReceiverPasses, AreLegalForCyclesEverywhere) {
   const Surface cube = smooth_cube();
   for (const Horizon horizon : {Horizon::identity, Horizon::clamp}) {
-    const ReceiverPasses passes = make_receiver_passes(cube, default_bases(), horizon);
+    const ReceiverPasses passes = make_receiver_passes(cube, flat_and_rnm().directions, horizon);
     for (const ReceiverPass& pass : passes.passes) {
       const float least = sine_of(0.05) - 1e-5F;
       for (std::size_t i = 0; i < pass.corners.size(); i += 3) {
@@ -180,7 +182,8 @@ TEST(ReceiverPasses, AreLegalForCyclesEverywhere) {
 }
 
 TEST(ReceiverPasses, ClampNeedsNothingElse) {
-  const ReceiverPasses passes = make_receiver_passes(smooth_cube(), default_bases(), Horizon::clamp);
+  const ReceiverPasses passes =
+      make_receiver_passes(smooth_cube(), flat_and_rnm().directions, Horizon::clamp);
   EXPECT_EQ(passes.passes.size(), 4U);
   EXPECT_GT(passes.counts.corners_below, 0U);
   for (const ReceiverPass& pass : passes.passes) EXPECT_EQ(pass.corners.size(), 36U);
@@ -190,7 +193,7 @@ TEST(ReceiverPasses, AreNotDividedFinerThanTheMapShows) {
   const auto corners = [](const Vec2& map) {
     std::size_t total = 0;
     for (const ReceiverPass& pass :
-         make_receiver_passes(smooth_cube(), default_bases(), Horizon::identity, map).passes)
+         make_receiver_passes(smooth_cube(), flat_and_rnm().directions, Horizon::identity, map).passes)
       if (pass.role != Role::moment) total += pass.corners.size();
     return total;
   };
@@ -212,7 +215,7 @@ TEST(ReceiverPasses, CutAtTheHorizonCoverTheTriangleOnce) {
         floor_triangle({Vec2(uniform(random), uniform(random)), Vec2(uniform(random), uniform(random)),
                         Vec2(uniform(random), uniform(random))},
                        normals));
-    const ReceiverPasses passes = make_receiver_passes(surface, default_bases(), Horizon::identity);
+    const ReceiverPasses passes = make_receiver_passes(surface, flat_and_rnm().directions, Horizon::identity);
     const auto& k = surface.triangles[0].corners;
     const ReceiverCorner whole[] = {{{}, {}, k[0].uv}, {{}, {}, k[1].uv}, {{}, {}, k[2].uv}};
     for (std::size_t b = 0; b < 4; ++b) {

@@ -2,6 +2,7 @@
 
 #include "bake/fixture.h"
 #include "base/files.h"
+#include "encoding/basis_set.h"
 #include "scene/test_meshes.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ class Requests : public testing::Test {
 
   SceneSurvey survey_;
   std::vector<Target> targets_;
-  std::vector<BasisDirection> bases_ = default_bases();
+  std::vector<BasisDirection> bases_ = flat_and_rnm().directions;
   Plan plan_;
   TempFolder folder_;
 };

@@ -28,8 +28,7 @@ void expect_part(const std::string& text, const std::string& part) {
 TEST(BasisSet, RnmIsSound) {
   EXPECT_TRUE(check_basis(rnm_set()).empty());
   EXPECT_TRUE(holds_rnm(rnm_set()));
-  BasisSet with_flat = rnm_set();
-  with_flat.directions.insert(with_flat.directions.begin(), flat_direction());
+  const BasisSet with_flat = flat_and_rnm();
   EXPECT_TRUE(check_basis(with_flat).empty());
   EXPECT_TRUE(holds_rnm(with_flat));
 }

@@ -27,10 +27,6 @@ Coded coded(const Codec& codec, const std::vector<Vec3>& irradiance) {
   return result;
 }
 
-Vec3d tilted(double tilt, double azimuth) {
-  return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
-}
-
 /// What the function of the normal gives at flat, rnm0, rnm1 and rnm2.
 template <typename At>
 std::vector<Vec3> four_of(const At& at) {
@@ -43,7 +39,7 @@ TEST(AhdCodec, ReturnsItsOwnLight) {
   const auto codec = ahd_codec({"ahd"}, flat_and_rnm());
   const Vec3 ambient(0.2F, 0.3F, 0.4F), directional(1, 0.7F, 0.2F);
   for (const double tilt : {0.1, 0.3, 0.6}) {  // above the horizons of all three of the basis
-    const Vec3 direction(tilted(tilt, 1));
+    const Vec3 direction(direction_at(tilt, 1));
     const auto [layers, counts] =
         coded(*codec, four_of([&](const Vec3& n) { return ahd_decode(ambient, directional, direction, n); }));
     EXPECT_EQ(counts.unconverged, 0U);
@@ -87,7 +83,7 @@ TEST(AhdCodec, NothingIsNegative) {
 
 TEST(DominantCodec, ReturnsItsOwnLight) {
   const auto codec = dominant_codec({"dominant"}, flat_and_rnm());
-  const Vec3 colour(1, 0.5F, 0.25F), d = Vec3(tilted(0.7, 2)) * 0.6F;
+  const Vec3 colour(1, 0.5F, 0.25F), d = Vec3(direction_at(0.7, 2)) * 0.6F;
   const auto light = four_of([&](const Vec3& n) { return colour * ((1 + d.dot(n)) / (1 + d.z)); });
   const auto [layers, counts] = coded(*codec, light);
   EXPECT_EQ(counts.out_of_range, 0U);
@@ -121,7 +117,7 @@ TEST(DominantCodec, NoPointOfTheBallIsBetter) {
     double least = std::numeric_limits<double>::infinity();
     for (int ring = 0; ring <= 60; ++ring) {
       for (int around = 0; around < 60; ++around) {
-        const Vec3d unit = tilted(ring * pi / 61, around * pi / 30);
+        const Vec3d unit = direction_at(ring * pi / 61, around * pi / 30);
         for (const double length : {0.5, 0.9, 1.0})
           least = std::min(least, dominant_left(light, unit * length));
       }

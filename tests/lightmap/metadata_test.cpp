@@ -12,8 +12,7 @@ namespace {
 
 LightmapMetadata example() {
   LightmapMetadata metadata;
-  metadata.bases = rnm_set().directions;
-  metadata.bases.insert(metadata.bases.begin(), flat_direction());
+  metadata.bases = flat_and_rnm().directions;
   metadata.green = Green::y_down;
   metadata.normalize = Normalize::flat;
   metadata.recipe = "receiver";

@@ -97,8 +97,7 @@ class Invented {
  public:
   explicit Invented(std::size_t count, const BakeSettings& settings = {}) : config_(make_config(settings)) {
     config_.globals.output.dir = folder_.path();
-    bases_.push_back(flat_direction());
-    for (const BasisDirection& basis : rnm_set().directions) bases_.push_back(basis);
+    bases_ = flat_and_rnm().directions;
     survey_.meshes.emplace_back();
     for (std::size_t i = 0; i < count; ++i) add_object(i);
     group_tasks(plan_, config_.globals.bake.dispatch);

@@ -14,12 +14,6 @@ struct CodecShader {
   std::string call;  // a function and all arguments but the layers, which at(0), at(1), ... stand for, and n
 };
 
-BasisSet flat_and_rnm() {
-  BasisSet set = rnm_set();
-  set.directions.insert(set.directions.begin(), flat_direction());
-  return set;
-}
-
 /// A few far lights and an even sky: E/pi at each direction of the set.
 std::vector<Vec3> lit(RandomVectors& random, const BasisSet& set) {
   std::vector<Vec3> irradiance(set.directions.size(), Vec3(0));

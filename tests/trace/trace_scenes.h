@@ -1,9 +1,9 @@
 // tests/trace/trace_scenes.h - scenes of a few quads, built in memory, and their gathering.
 #pragma once
 
+#include "encoding/basis_set.h"
 #include "scene/diffuse_scene.h"
 #include "scene/surface.h"
-#include "support/bases.h"
 #include "trace/gather.h"
 #include "trace/geometry/triangles.h"
 
@@ -98,7 +98,7 @@ inline const double sky_share = (1 + 1 / std::sqrt(3.0)) / 2;
 
 inline GatherOptions all_directions(int samples, std::uint64_t seed = 0) {
   GatherOptions options;
-  options.directions = default_bases();
+  options.directions = flat_and_rnm().directions;
   options.samples = samples;
   options.seed = seed;
   options.footprint = Footprint::full;

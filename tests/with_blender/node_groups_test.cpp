@@ -141,7 +141,7 @@ class NodeGroups : public testing::Test {
     write_exr(file("normals.exr"), normal_map(), Depth::full);
     run({"shaders", "--engine", "blender", "-o", file("nodes").string(), "-q"});
     json views = json::array();
-    for (const std::string& name : node_group_names()) {
+    for (const std::string& name : codec_names()) {
       write_lightmap(name);
       for (const Normals& normals : {mapped, flipped, unconnected}) views.push_back(view(name, normals));
     }
@@ -229,7 +229,7 @@ class NodeGroups : public testing::Test {
 };
 
 TEST_F(NodeGroups, ReturnWhatDecodeReturns) {
-  for (const std::string& name : node_group_names()) {
+  for (const std::string& name : codec_names()) {
     const double error = NodeGroups::error(name, mapped);
     EXPECT_LE(error, tolerance) << name;
     RecordProperty(name, std::to_string(error));
@@ -237,7 +237,7 @@ TEST_F(NodeGroups, ReturnWhatDecodeReturns) {
 }
 
 TEST_F(NodeGroups, FlipGreenIsDecodesOwn) {
-  for (const std::string& name : node_group_names()) {
+  for (const std::string& name : codec_names()) {
     EXPECT_LE(error(name, flipped), tolerance) << name;
     const double by_flip = error_of(decoded(name, mapped), decoded(name, flipped), inputs(name));
     EXPECT_TRUE(name == "flat" ? by_flip == 0 : by_flip > 0.1) << name << ": " << by_flip;
@@ -245,7 +245,7 @@ TEST_F(NodeGroups, FlipGreenIsDecodesOwn) {
 }
 
 TEST_F(NodeGroups, TakeAFlatNormalWhereNoMapIsConnected) {
-  for (const std::string& name : node_group_names()) EXPECT_LE(error(name, unconnected), tolerance) << name;
+  for (const std::string& name : codec_names()) EXPECT_LE(error(name, unconnected), tolerance) << name;
 }
 
 }  // namespace

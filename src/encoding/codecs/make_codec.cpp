@@ -50,9 +50,9 @@ constexpr std::array<NamedMaker, 14> makers{{{"flat", make_flat},
                                              {"h6", linear_codec},
                                              {"sg", linear_codec}}};
 
-void check_packing(const CodecOptions& options, Maker maker) {
+void check_packing(const CodecOptions& options) {
   const bool is_packed = options.range != 0;
-  if (maker != make_lobe && (is_packed || options.bits != 0 || options.mono)) {
+  if (!holds_four_numbers(options.name) && (is_packed || options.bits != 0 || options.mono)) {
     fail(ExitCode::usage, "the encoding '{}' has no range, bits or mono; sh2, zh3 and geomerics have them",
          options.name);
   }
@@ -75,6 +75,12 @@ std::vector<std::string> codec_names() {
   return names;
 }
 
+bool holds_four_numbers(const std::string& encoding) {
+  const auto* found =
+      std::ranges::find_if(makers, [&](const NamedMaker& maker) { return maker.name == encoding; });
+  return found != makers.end() && found->make == make_lobe;
+}
+
 std::unique_ptr<const Codec> make_codec(const CodecOptions& options, const BasisSet& directions) {
   const auto* found =
       std::ranges::find_if(makers, [&](const NamedMaker& maker) { return maker.name == options.name; });
@@ -82,7 +88,7 @@ std::unique_ptr<const Codec> make_codec(const CodecOptions& options, const Basis
     fail(ExitCode::usage, "there is no encoding '{}'; choose one of {}", options.name,
          fmt::join(codec_names(), ", "));
   }
-  check_packing(options, found->make);
+  check_packing(options);
   return found->make(options, directions);
 }
 

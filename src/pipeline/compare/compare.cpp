@@ -99,12 +99,6 @@ std::size_t count(const FloatImage& picture, const std::vector<CountedWhere>& co
   return texels;
 }
 
-std::vector<std::string> names_of(const LightmapPlace& place) {
-  std::vector<std::string> names;
-  for (const auto& file : place.files) names.push_back(file.filename().string());
-  return names;
-}
-
 void note_differences(const LightmapMetadata& a, const LightmapMetadata& b, ObjectComparison& object) {
   const auto note = [&](const char* what, const std::string& one, const std::string& other) {
     if (one == other || one.empty() || other.empty()) return;
@@ -151,8 +145,8 @@ class Comparer {
                                                  std::vector<CountedWhere> counted) {
     ObjectComparison object;
     object.key = one.key;
-    object.candidate_files = names_of(one);
-    object.reference_files = names_of(other);
+    object.candidate_files = file_names(one.files);
+    object.reference_files = file_names(other.files);
     const FloatImage& picture = a.first.image.layers.front().pixels;
     object.width = picture.width();
     object.height = picture.height();

@@ -13,7 +13,6 @@
 #include "pipeline/lightmaps/manifest_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -33,8 +32,7 @@ static_assert(band_rows > FrameRows::reach);  // frames are looked for in the ne
 bool keeps_bakes(const LightmapMetadata& metadata) {
   const CodecOptions& codec = metadata.codec;
   if (codec.name == "sh2" && metadata.bases.size() > 4) return false;
-  const bool is_lobe = codec.name == "sh2" || codec.name == "zh3" || codec.name == "geomerics";
-  return is_lobe && codec.range == 0;
+  return holds_four_numbers(codec.name) && codec.range == 0;
 }
 
 /// The way back: each layer is the bake of one direction.
@@ -58,7 +56,7 @@ class BakesCodec : public Codec {
 };
 
 std::unique_ptr<const Codec> target_codec(const CodecOptions& options, const BasisSet& directions) {
-  if (options.name == "rnm") return std::make_unique<BakesCodec>(directions);
+  if (options.name == baked_codec) return std::make_unique<BakesCodec>(directions);
   return make_codec(options, directions);
 }
 
@@ -108,11 +106,6 @@ class TexelSource {
   std::unique_ptr<const Codec> codec_;  // none: the layers are the bakes themselves
 };
 
-Vec3 colour_at(const FloatImage& picture, int x, int y) {
-  const auto texel = picture.texel(x, y);
-  return {texel[0], texel[1], texel[2]};
-}
-
 bool holds_frames(const LayeredImage& image) {
   return image.find("tangent") != nullptr && image.find("normal") != nullptr;
 }
@@ -129,12 +122,13 @@ class Conversion {
         frames_(source_.metadata().green) {
     const LightmapMetadata& metadata = source_.metadata();
     from_world_ = metadata.space == "world";
+    needs_frames_ = options.world || from_world_;
     if (metadata.normalize == Normalize::flat && options.codec.name != "flat" &&
         options.codec.name != "rnm-vrad")
       refuse(
           "its maps are scaled to the flat bake, and what they were is not in the file; bake without "
           "--normalize flat");
-    if ((options.world || from_world_) && !holds_frames(source_.header())) {
+    if (needs_frames_ && !holds_frames(source_.header())) {
       refuse(
           "world space needs the tangent frames of its texels, which it does not hold; bake it with "
           "--frames");
@@ -176,7 +170,7 @@ class Conversion {
   LayeredImage read(int begin) {
     if (begin >= source_.height()) return {};
     LayeredImage rows = source_.read(begin, std::min(begin + band_rows, source_.height()));
-    if (options_.world || from_world_) frames_.add(begin, rows);
+    if (needs_frames_) frames_.add(begin, rows);
     return rows;
   }
 
@@ -210,23 +204,21 @@ class Conversion {
     std::vector<float> out(std::size_t(end - begin) * width * channels);
     std::mutex mutex;
     tbb::parallel_for(tbb::blocked_range<int>(0, end - begin), [&](const tbb::blocked_range<int>& range) {
-      ConvertSummary sums;
+      ConvertCounts counts;
       TexelBuffers buffers{std::vector<Vec3>(texels_.layer_count()),
                            std::vector<Vec3>(directions_.directions.size()),
                            std::vector<Vec3>(codec_->layers().size())};
       for (int y = range.begin(); y < range.end(); ++y) {
         for (int x = 0; x < width; ++x) {
           const bool is_covered = coverage == nullptr || coverage->pixels.texel(x, y)[0] > 0.5F;
-          for (std::size_t i = 0; i < pictures.size(); ++i) buffers.values[i] = colour_at(*pictures[i], x, y);
+          for (std::size_t i = 0; i < pictures.size(); ++i) buffers.values[i] = vec3_at(*pictures[i], x, y);
           float* to = &out[(std::size_t(y) * width + x) * channels];
-          to = write_texel(buffers, x, begin + y, is_covered, sums, to);
+          to = write_texel(buffers, x, begin + y, is_covered, counts, to);
           for (const Layer* layer : kept) to = std::ranges::copy(layer->pixels.texel(x, y), to).out;
         }
       }
       const std::scoped_lock lock(mutex);
-      summary_.counts += sums.counts;
-      summary_.beyond_half += sums.beyond_half;
-      summary_.without_frame += sums.without_frame;
+      summary_.counts += counts;
     });
     return out;
   }
@@ -235,26 +227,25 @@ class Conversion {
     std::vector<Vec3> values, irradiance, layers;
   };
 
-  float* write_texel(TexelBuffers& buffers, int x, int y, bool is_covered, ConvertSummary& sums,
+  float* write_texel(TexelBuffers& buffers, int x, int y, bool is_covered, ConvertCounts& counts,
                      float* to) const {
     std::optional<TexelFrame> world;
-    if (options_.world || from_world_) world = frames_.nearest(x, y);
-    if ((options_.world || from_world_) && !world && is_covered) ++sums.without_frame;
+    if (needs_frames_) world = frames_.nearest(x, y);
     texels_.irradiance(buffers.values, from_world_ ? world.value_or(TexelFrame{}) : TexelFrame{},
                        buffers.irradiance);
     if (options_.world && !world)  // the same from everywhere: what is left of light without a frame
       std::ranges::fill(buffers.irradiance, buffers.irradiance.front());
-    const EncodeCounts counts =
+    ConvertCounts own;
+    own.encode =
         codec_->encode(buffers.irradiance, buffers.layers, options_.world && world ? *world : TexelFrame{});
-    if (is_covered) sums.counts += counts;
+    own.without_frame = needs_frames_ && !world ? 1 : 0;
     for (const Vec3& layer : buffers.layers) {
-      for (int c = 0; c < 3; ++c) {
-        const float value = layer[c];
-        const bool is_beyond = options_.depth == Depth::half && std::abs(value) > largest_half;
-        sums.beyond_half += is_beyond && is_covered ? 1 : 0;
-        *to++ = is_beyond ? std::copysign(largest_half, value) : value;
+      for (int c = 0; c < 3; ++c, ++to) {
+        *to = layer[c];
+        if (options_.depth == Depth::half && clamp_to_half(*to)) ++own.beyond_half;
       }
     }
+    if (is_covered) counts += own;
     return to;
   }
 
@@ -264,7 +255,7 @@ class Conversion {
   std::unique_ptr<const Codec> codec_;
   TexelSource texels_;
   FrameRows frames_;
-  bool from_world_ = false;
+  bool from_world_ = false, needs_frames_ = false;
   ConvertSummary summary_;
 };
 
@@ -278,14 +269,19 @@ void write_converted_manifest(const fs::path& source, const std::vector<ConvertS
   if (!metadata.is_baked()) manifest["conventions"]["normalize"] = name_of(Normalize::none);
   for (nlohmann::json& object : manifest["objects"]) {
     const auto found = std::ranges::find(converted, object["key"].get<std::string>(), &ConvertSummary::key);
-    object["files"] = nlohmann::json::array();
-    if (found == converted.end()) continue;
-    for (const fs::path& file : found->files) object["files"].push_back(file.filename().string());
+    object["files"] = found == converted.end() ? std::vector<std::string>{} : file_names(found->files);
   }
   write_atomically(folder / "manifest.json", manifest.dump(2) + "\n");
 }
 
 }  // namespace
+
+ConvertCounts& ConvertCounts::operator+=(const ConvertCounts& other) {
+  encode += other.encode;
+  beyond_half += other.beyond_half;
+  without_frame += other.without_frame;
+  return *this;
+}
 
 std::optional<std::string> convert_obstacle(const LightmapMetadata& metadata) {
   if (metadata.units != "E/pi") return "its units are '" + metadata.units + "'; E/pi is needed";

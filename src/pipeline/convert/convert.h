@@ -22,13 +22,19 @@ struct ConvertOptions {
   bool split = false;  // a file for each layer, for engines that know none: floor.l0.exr
 };
 
+/// Of covered texels, or of all where the lightmap does not say which are.
+struct ConvertCounts {
+  EncodeCounts encode;
+  std::size_t beyond_half = 0;    // values clamped to the range of half floats
+  std::size_t without_frame = 0;  // texels without a frame in a world-space lightmap: kept without direction
+
+  ConvertCounts& operator+=(const ConvertCounts& other);
+};
+
 struct ConvertSummary {
   std::string key;
   std::vector<std::filesystem::path> files;  // one, or one for each layer
-  EncodeCounts counts;          // of covered texels, or of all where the lightmap does not say which are
-  std::size_t beyond_half = 0;  // values clamped to the range of half floats
-  std::size_t without_frame =
-      0;  // covered texels that a world-space lightmap has no frame for: kept without direction
+  ConvertCounts counts;
 };
 
 /// Why a lightmap of this header cannot feed another encoding; nothing where it can. What it can be turned

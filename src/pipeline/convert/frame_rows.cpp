@@ -7,21 +7,21 @@ namespace rnmbake {
 
 void FrameRows::add(int first, const LayeredImage& rows) {
   Band band{first, {}, {}};
-  if (const Layer* tangent = rows.find("tangent")) band.tangent = *tangent;
-  if (const Layer* normal = rows.find("normal")) band.normal = *normal;
+  if (const Layer* tangent = rows.find("tangent")) band.tangent = tangent->pixels;
+  if (const Layer* normal = rows.find("normal")) band.normal = normal->pixels;
   bands_.push_back(std::move(band));
 }
 
 void FrameRows::drop_above(int row) {
-  while (!bands_.empty() && bands_.front().first + bands_.front().normal.pixels.height() + reach <= row)
+  while (!bands_.empty() && bands_.front().first + bands_.front().normal.height() + reach <= row)
     bands_.pop_front();
 }
 
 std::optional<TexelFrame> FrameRows::at(int x, int y) const {
   for (const Band& band : bands_) {
-    const FloatImage& pixels = band.normal.pixels;
-    if (x < 0 || x >= pixels.width() || y < band.first || y >= band.first + pixels.height()) continue;
-    return frame_at(&band.tangent, &band.normal, x, y - band.first, green_);
+    const FloatImage& normal = band.normal;
+    if (x < 0 || x >= normal.width() || y < band.first || y >= band.first + normal.height()) continue;
+    return frame_at(band.tangent, normal, x, y - band.first, green_);
   }
   return std::nullopt;
 }

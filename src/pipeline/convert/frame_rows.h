@@ -28,7 +28,7 @@ class FrameRows {
  private:
   struct Band {
     int first = 0;
-    Layer tangent, normal;
+    FloatImage tangent, normal;
   };
   [[nodiscard]] std::optional<TexelFrame> at(int x, int y) const;
 

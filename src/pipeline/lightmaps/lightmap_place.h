@@ -14,4 +14,12 @@ struct LightmapPlace {
   std::vector<std::string> outside_model;    // not traced by a reference: "glossy", ...
 };
 
+/// As manifests and reports name them: without their folder.
+[[nodiscard]] inline std::vector<std::string> file_names(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  names.reserve(files.size());
+  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+  return names;
+}
+
 }  // namespace rnmbake

@@ -2,14 +2,13 @@
 
 #include "base/error.h"
 #include "encoding/encodings.h"
+#include "lightmap/layout.h"
 
 #include <cstddef>
 #include <utility>
 
 namespace rnmbake {
 namespace {
-
-constexpr const char* layer_attribute = "rnmbake:layer";
 
 /// Alpha, which some other program may have added, is no part of a lightmap.
 ChannelGroup without_alpha(ChannelGroup group) {

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/names.h"
+#include "encoding/codecs/make_codec.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,13 +14,8 @@ namespace rnmbake {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> node_group_names() {
-  return {"flat",      "rnm", "rnm-vrad", "rnm-signed", "rnm-bakery", "sh2", "zh3",
-          "geomerics", "ahd", "dominant", "sh3",        "h4",         "h6",  "sg"};
-}
-
 std::vector<std::string> checked_node_groups(const std::vector<std::string>& names) {
-  std::vector<std::string> known = node_group_names();
+  std::vector<std::string> known = codec_names();
   if (names.empty()) return known;
   std::vector<std::string> chosen;
   for (const std::string& name : names) {

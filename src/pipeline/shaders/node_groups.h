@@ -9,10 +9,8 @@
 
 namespace rnmbake {
 
-/// Encodings (encoding/codecs/make_codec.h) that a node group decodes.
-[[nodiscard]] std::vector<std::string> node_group_names();
-
-/// The same names, each once, or all where none is given. Throws Error(usage) for one that has no group.
+/// Names of encodings (encoding/codecs/make_codec.h), each of which has a group: each once, or all where none
+/// is given. Throws Error(usage) for one that has no group.
 [[nodiscard]] std::vector<std::string> checked_node_groups(const std::vector<std::string>& names);
 
 /// Launches Blender, which writes `file` (.blend, whole or not at all): a library without a scene that holds

@@ -23,10 +23,6 @@ namespace {
 
 constexpr std::size_t tested_normals = 256;
 
-Vec3 as_colour(std::span<const float> texel) {
-  return {texel[0], texel[1], texel[2]};
-}
-
 /// Bakes that codecs are fed with, and the others, whose directions are the normals they are tested at.
 struct FedAndTested {
   BasisSet fed;
@@ -75,10 +71,9 @@ void add_texels(const LayeredImage& rows, const FedAndTested& directions, Encodi
                       for (int y = range.begin(); y < range.end(); ++y) {
                         for (int x = 0; x < fed.front()->width(); ++x) {
                           if (coverage != nullptr && coverage->pixels.texel(x, y)[0] < 0.5F) continue;
-                          for (std::size_t i = 0; i < fed.size(); ++i)
-                            at_fed[i] = as_colour(fed[i]->texel(x, y));
+                          for (std::size_t i = 0; i < fed.size(); ++i) at_fed[i] = vec3_at(*fed[i], x, y);
                           for (std::size_t i = 0; i < tested.size(); ++i)
-                            at_tested[i] = as_colour(tested[i]->texel(x, y));
+                            at_tested[i] = vec3_at(*tested[i], x, y);
                           part.add(at_fed, at_tested);
                         }
                       }

@@ -9,17 +9,12 @@
 namespace rnmbake {
 namespace {
 
-Vec3 normal_at(const FloatImage& normals, int x, int y) {
-  const auto texel = normals.texel(x, y);
-  return {texel[0], texel[1], texel[2]};
-}
-
 constexpr float least_z = 0.02F;  // of normals whose slope is asked for: 88.9 degrees
 
 /// How fast the light's ray rises over the surface of a texel.
 float clearance(const FloatImage& normals, int x, int y, const Vec3& light,
                 const NormalShadowOptions& options) {
-  const Vec3 normal = normal_at(normals, x, y);
+  const Vec3 normal = vec3_at(normals, x, y);
   const float cosine = light.dot(normal);
   return options.true_slopes ? cosine / std::max(normal.z, least_z) : cosine;
 }
@@ -96,7 +91,7 @@ FloatImage normal_shadows(const FloatImage& normals, const Vec3& light, const No
 
 FloatImage lit_by(const FloatImage& normals, const Vec3& light, const FloatImage& factor) {
   return each_texel(normals, [&](int x, int y) {
-    return std::max(0.0F, light.dot(normal_at(normals, x, y))) * factor.texel(x, y)[0];
+    return std::max(0.0F, light.dot(vec3_at(normals, x, y))) * factor.texel(x, y)[0];
   });
 }
 

@@ -33,8 +33,7 @@ struct WrittenLightmap {
 
 LayeredImage lightmap_of(const WrittenLightmap& wanted) {
   LightmapMetadata metadata;
-  metadata.bases = rnm_set().directions;
-  metadata.bases.insert(metadata.bases.begin(), flat_direction());
+  metadata.bases = flat_and_rnm().directions;
   std::erase_if(metadata.bases,
                 [&](const auto& basis) { return std::ranges::count(wanted.bases, basis.name) == 0; });
   metadata.seed = wanted.seed;

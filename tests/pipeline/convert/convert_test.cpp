@@ -41,8 +41,7 @@ std::array<float, 4> bakes_of_suns(SplitMix64& random) {
 
 LightmapMetadata baked_metadata() {
   LightmapMetadata metadata;
-  metadata.bases = rnm_set().directions;
-  metadata.bases.insert(metadata.bases.begin(), flat_direction());
+  metadata.bases = flat_and_rnm().directions;
   metadata.object = "floor";
   return metadata;
 }
@@ -131,19 +130,20 @@ TEST_F(Convert, ReturnsTheBakesFromWhereverTheyWent) {
   for (const auto& [encoding, bound] :
        {std::pair{"sh2", few_roundings}, {"zh3", solved}, {"geomerics", solved}}) {
     const ConvertSummary summary = convert(source, encoding, "there.exr");
-    EXPECT_EQ(summary.counts.texels, std::size_t(map_height) * (map_width - map_width / 5)) << encoding;
+    EXPECT_EQ(summary.counts.encode.texels, std::size_t(map_height) * (map_width - map_width / 5))
+        << encoding;
     (void)convert(at("there.exr"), "rnm", "back.exr");
-    if (summary.counts.unconverged == 0) {
+    if (summary.counts.encode.unconverged == 0) {
       EXPECT_LT(bakes_apart(source, at("back.exr")), bound) << encoding;
     }
-    EXPECT_LE(summary.counts.unconverged, summary.counts.texels / 100) << encoding;
+    EXPECT_LE(summary.counts.encode.unconverged, summary.counts.encode.texels / 100) << encoding;
   }
 }
 
 TEST_F(Convert, ReturnsFromWorldSpace) {
   for (const Green green : {Green::y_up, Green::y_down}) {
     const auto source = written("baked.exr", baked(green));
-    EXPECT_EQ(convert(source, "sh2", "world.exr", true).without_frame, 0U);
+    EXPECT_EQ(convert(source, "sh2", "world.exr", true).counts.without_frame, 0U);
     (void)convert(at("world.exr"), "rnm", "back.exr");
     EXPECT_LT(bakes_apart(source, at("back.exr"), true), 4 * few_roundings);
     (void)convert(source, "sh2", "tangent.exr");
@@ -230,7 +230,7 @@ TEST_F(Convert, WritesDarknessForWhatIsNoNumber) {
   LayeredImage image = baked();
   image.layers[1].pixels.texel(0, 0)[1] = std::numeric_limits<float>::quiet_NaN();
   const ConvertSummary summary = convert(written("baked.exr", image), "zh3", "there.exr");
-  EXPECT_EQ(summary.counts.non_finite, 1U);
+  EXPECT_EQ(summary.counts.encode.non_finite, 1U);
   const LayeredImage there = read_image(at("there.exr"));
   for (const Layer& layer : there.layers)
     for (const float value : layer.pixels.data()) ASSERT_TRUE(std::isfinite(value)) << layer.name;

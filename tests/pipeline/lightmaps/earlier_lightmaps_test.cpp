@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "encoding/basis_set.h"
 #include "pipeline/fixture.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/traced_scene.h"
-#include "support/bases.h"
 
 #include <filesystem>
 #include <string>
@@ -67,7 +67,7 @@ class TwoObjects : public testing::Test {
   FakeBlender blender_;
   ExportResult exported_ = floor_under_sky();
   ReferencePlan plan_;
-  std::vector<BasisDirection> bases_ = default_bases();
+  std::vector<BasisDirection> bases_ = flat_and_rnm().directions;
   std::string kind_ = "reference";
 };
 

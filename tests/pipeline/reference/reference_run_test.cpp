@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "blender/blender_session.h"
+#include "encoding/basis_set.h"
 #include "image/layered_exr.h"
 #include "pipeline/traced_scene.h"
 #include "process/stop.h"
@@ -44,7 +45,7 @@ class Tracing {
 
  private:
   TempFolder folder_;
-  std::vector<BasisDirection> bases_ = default_bases();
+  std::vector<BasisDirection> bases_ = flat_and_rnm().directions;
 };
 
 /// Mean of a layer, and the standard error of that from its texels' own.
@@ -69,7 +70,7 @@ TEST(ReferenceRun, WritesWhatTheSkyGives) {
   EXPECT_EQ(count_failed(outcome.deliveries), 0U);
   EXPECT_GT(outcome.rays, 0);
   const LayeredImage image = tracing.read("floor.exr");
-  for (const BasisDirection& basis : default_bases()) {
+  for (const BasisDirection& basis : flat_and_rnm().directions) {
     const Mean mean = mean_of(image, basis.name);
     const double truth = (1 + double(basis.direction.z)) / 2;
     // Colours share their paths, so three values count as one; four standard errors.

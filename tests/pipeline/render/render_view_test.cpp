@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "encoding/basis_set.h"
 #include "encoding/rnm.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/traced_scene.h"
@@ -40,7 +41,7 @@ class Studio {
     settings.output.depth = Depth::full;
     ReferencePlan plan;
     plan.blender_version = version;
-    const auto bases = default_bases();
+    const auto bases = flat_and_rnm().directions;
     const ReferenceOutcome outcome = run_reference({traced_, exported.list, bases}, settings, plan);
     ASSERT_EQ(count_failed(outcome.deliveries), 0U);
   }

@@ -117,8 +117,7 @@ std::string SunCase::object() const {
 
 double SunCase::truth(const BasisDirection& basis) const {
   if (angle >= 90) return 0;
-  const double a = angle * pi / 180, z = azimuth * pi / 180;
-  const Vec3d to_sun(std::sin(a) * std::cos(z), std::sin(a) * std::sin(z), std::cos(a));
+  const Vec3d to_sun = direction_at(angle * pi / 180, azimuth * pi / 180);
   return std::max(0.0, to_sun.dot(Vec3d(basis.direction)));
 }
 

@@ -16,8 +16,7 @@ using Vec2d = Imath::V2d;
 
 /// kit.direction(35, 25): the default sun of scenes/smooth.py.
 Vec3d to_sun() {
-  const double a = 35 * pi / 180, z = 25 * pi / 180;
-  return {std::sin(a) * std::cos(z), std::sin(a) * std::sin(z), std::cos(a)};
+  return direction_at(35 * pi / 180, 25 * pi / 180);
 }
 
 double sun(const Vec3d& b, const Vec3d& n) {
