@@ -13,6 +13,7 @@
 #include "pipeline/reference/reference_plan.h"
 #include "pipeline/render/render_compare.h"
 #include "pipeline/render/render_cycles.h"
+#include "pipeline/render/render_gbuffer.h"
 #include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/fit_camera.h"
 #include "process/stop.h"
@@ -56,8 +57,9 @@ class OpenScene {
 
   void write_picture() {
     const RenderOptions options = render_options(flags_.with == "cycles");
+    if (flags_.gbuffer) return write_gbuffer(options.view);
     if (flags_.with == "cycles") return write({cycles(options), {}, {}});
-    write(render_view(scene_, lightmaps_ ? &*lightmaps_ : nullptr, *lighting_of(decode_), options));
+    write(render_view(scene_, lightmaps(), *lighting_of(decode_), options));
   }
 
   [[nodiscard]] Report compare() {
@@ -82,6 +84,14 @@ class OpenScene {
     ExportResult exported = export_scene(session_);
     give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
+  }
+
+  [[nodiscard]] const SceneLightmaps* lightmaps() const { return lightmaps_ ? &*lightmaps_ : nullptr; }
+
+  void write_gbuffer(const ViewOptions& options) const {
+    const LayeredImage image =
+        gbuffer_layers(render_gbuffer(scene_, lightmaps(), options), exported_.diffuse_scene);
+    write_exr(flags_.output, image, Depth::full);
   }
 
   [[nodiscard]] RenderOptions render_options(bool cycles) const {

@@ -59,6 +59,9 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
                   "[lambert]")
       ->check(CLI::IsMember({"lambert", "full"}).description(""))
       ->type_name("lambert|full");
+  command.add_flag("--gbuffer", gbuffer,
+                   "what a deferred renderer keeps instead of a picture: normals of the normal maps and of "
+                   "the faces, positions, depths and objects, as layers of an .exr");
   command.add_flag("--compare", compare,
                    "all of these, and a report on how far each is from the truth: -o names its folder");
   command
@@ -91,8 +94,17 @@ void RenderFlags::check() {
     fail(ExitCode::usage, "--compare writes a folder, and {} is a picture; name a folder", output.string());
   if (!compare && !has_ending)
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", output.string());
-  const int ways = int(!decode.empty()) + int(!with.empty()) + int(compare);
-  if (ways > 1) fail(ExitCode::usage, "--decode, --with and --compare exclude each other; give one of them");
+  const int ways = int(!decode.empty()) + int(!with.empty()) + int(compare) + int(gbuffer);
+  if (ways > 1) {
+    fail(ExitCode::usage, "--decode, --with, --gbuffer and --compare exclude each other; give one of them");
+  }
+  if (gbuffer && is_png(output))
+    fail(ExitCode::usage, "--gbuffer writes layers, which {} cannot hold; name an .exr", output.string());
+  if (gbuffer && samples > 0) {
+    fail(ExitCode::usage,
+         "--gbuffer takes one ray through each pixel's centre, as means of two surfaces are neither; leave "
+         "--samples out");
+  }
   decode_by_header = ways == 0;
   if (decode_by_header) decode = "squared";
   const bool looks_up = compare || (!decode.empty() && decode != "truth" && decode != "none");
@@ -118,6 +130,7 @@ std::string RenderFlags::as_text() const {
   add("--lightmaps", lightmaps.string());
   add("--decode", decode);
   add("--with", with);
+  if (gbuffer) text += " --gbuffer";
   if (compare) text += " --compare";
   if (materials != "lambert") add("--materials", materials);
   add("--camera", camera);

@@ -1,15 +1,10 @@
 #include "trace/view.h"
 
 #include "sampling/maps.h"
-#include "trace/transparency.h"
+#include "trace/primary_rays.h"
 
-#include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <utility>
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace rnmbake {
 namespace {
@@ -20,35 +15,15 @@ struct Seen {
   float surface = 0;
 };
 
-/// Follows a primary ray to the surface where its path stops, past what is not visible to cameras.
-Seen see(const TraceScene& scene, Ray ray, const ReflectedLight& reflected, Sampler& sampler) {
-  const auto& objects = scene.diffuse_scene().survey.objects;
-  const auto is_visible = [&](std::uint32_t triangle) {
-    return bool(objects[scene.triangles().object[triangle]].visible_to_camera);
-  };
-  Seen seen;
-  Vec3 weight(1);
-  while (true) {
-    const auto on_emission = [&](const Hit&, const Vec3& radiance) { seen.radiance += weight * radiance; };
-    const PathHit end = trace_through(scene, ray, sampler, on_emission, is_visible);
-    weight *= end.weight();
-    if (!end.met) {
-      seen.radiance += weight * scene.lights().world(ray.direction);
-      seen.surface = 1 - (weight.x + weight.y + weight.z) / 3;
-      return seen;
-    }
-    const Vertex vertex = vertex_at(scene, ray, end.hit);
-    if (is_visible(end.hit.triangle)) {
-      seen.radiance += weight * reflected(vertex, sampler);
-      seen.albedo = weight * scene.materials().albedo(vertex.material, vertex.uv);
-      seen.surface = 1;
-      return seen;
-    }
-    // A step along the ray as well: at grazing angles the offset through the face advances the ray too
-    // little.
-    const float step = std::max(vertex.ray_offset, 1e-6F * end.hit.distance);
-    ray.origin = vertex.start_below() + ray.direction * step;
+Seen see(const TraceScene& scene, const Ray& ray, const ReflectedLight& reflected, Sampler& sampler) {
+  const PrimaryHit end = follow_primary(scene, ray, sampler);
+  if (!end.met) {
+    const float behind = (end.weight.x + end.weight.y + end.weight.z) / 3;
+    return {end.emitted + end.weight * scene.lights().world(ray.direction), Vec3(0), 1 - behind};
   }
+  const Vertex& vertex = end.vertex;
+  return {end.emitted + end.weight * reflected(vertex, sampler),
+          end.weight * scene.materials().albedo(vertex.material, vertex.uv), 1};
 }
 
 class ViewTracer {
@@ -133,18 +108,8 @@ View trace_view(const TraceScene& scene, const Camera& camera, const ViewOptions
                 const ReflectedLight& reflected, const std::function<void(double)>& progress,
                 const std::function<bool()>& stop) {
   ViewTracer tracer(scene, camera, options, reflected);
-  std::mutex mutex;
-  int done = 0;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(0, options.height, [&](int y) {
-      if (stop && stop()) return;
-      tracer.row(y);
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (progress) progress(double(done) / options.height);
-    });
-  });
+  trace_rows(
+      options.height, options.threads, [&](int y) { tracer.row(y); }, progress, stop);
   return tracer.take();
 }
 
