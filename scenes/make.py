@@ -18,6 +18,7 @@ sys.dont_write_bytecode = True
 import attic  # noqa: E402
 import cave  # noqa: E402
 import closed_forms  # noqa: E402
+import cobbles  # noqa: E402
 import cornell  # noqa: E402
 import hall  # noqa: E402
 import kit  # noqa: E402
@@ -37,6 +38,7 @@ SCENES = {
     "hall": hall.build,
     "cave": cave.build,
     "panels": panels.build,
+    "cobbles": cobbles.build,
     "attic": attic.build,
 }
 

@@ -27,7 +27,8 @@ def _image(name, colors, is_data):
     return image
 
 
-def _material(name, pattern, roughness=0.5, specular=0.3):
+def mapped(name, pattern, roughness=0.5, specular=0.3):
+    """A material with the pattern's colours and normals, packed in the file."""
     material = bpy.data.materials.new(name)
     nodes = kit.Nodes(material)
     output = nodes.add("ShaderNodeOutputMaterial")
@@ -113,14 +114,14 @@ def _lights():
 
 def build():
     kit.start(exposure=0.2, look="Medium High Contrast")
-    brick = _material("bricks", patterns.bricks(), roughness=0.8)
-    plate = _material("plates", patterns.plates(), roughness=0.4, specular=0.4)
-    stud = _material("studs", patterns.studs(), roughness=0.45)
-    tile = _material("tiles", patterns.tiles(), roughness=0.4, specular=0.4)
-    stone = _material("stone", patterns.stone(), roughness=0.8)
-    crate = _material("crate", patterns.plates(5, (0.78, 0.42, 0.14), (0.16, 0.2, 0.24)), roughness=0.5)
-    jade = _material("jade", patterns.studs((0.08, 0.3, 0.26), (0.2, 0.62, 0.45)), roughness=0.35)
-    gold = _material("gold", patterns.stone((0.9, 0.6, 0.16), 0.012, 60), roughness=0.4, specular=0.5)
+    brick = mapped("bricks", patterns.bricks(), roughness=0.8)
+    plate = mapped("plates", patterns.plates(), roughness=0.4, specular=0.4)
+    stud = mapped("studs", patterns.studs(), roughness=0.45)
+    tile = mapped("tiles", patterns.tiles(), roughness=0.4, specular=0.4)
+    stone = mapped("stone", patterns.stone(), roughness=0.8)
+    crate = mapped("crate", patterns.plates(5, (0.78, 0.42, 0.14), (0.16, 0.2, 0.24)), roughness=0.5)
+    jade = mapped("jade", patterns.studs((0.08, 0.3, 0.26), (0.2, 0.62, 0.45)), roughness=0.35)
+    gold = mapped("gold", patterns.stone((0.9, 0.6, 0.16), 0.012, 60), roughness=0.4, specular=0.5)
 
     _walls(brick, plate, stud, tile)
     _column("column_left", -2.35, 4.4, stone)

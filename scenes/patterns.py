@@ -216,6 +216,36 @@ def studs(base=(0.42, 0.28, 0.5), knob=(0.87, 0.83, 0.76), columns=4):
     return Pattern(height, color)
 
 
+def cobbles(cells=6, seed=53):
+    """Rounded stones in sand: cells around scattered points, higher towards their middle."""
+    rng = random.Random(seed)
+    points = [[(rng.uniform(0.2, 0.8), rng.uniform(0.2, 0.8), rng.uniform(0.75, 1)) for _ in range(cells)]
+              for _ in range(cells)]
+    grain = Grain(24, seed)
+
+    def nearest(u, v):
+        """Distances to the two nearest points, in cells, and the lift of the nearest stone."""
+        column, row = int(u * cells), int(v * cells)
+        found = []
+        for r in range(row - 2, row + 3):
+            for c in range(column - 2, column + 3):
+                x, y, lift = points[r % cells][c % cells]
+                found.append((math.hypot(u * cells - c - x, v * cells - r - y), lift))
+        (first, lift), (second, _) = sorted(found)[:2]
+        return first, second, lift
+
+    def height(u, v):
+        first, second, lift = nearest(u, v)
+        inside = min(1.0, (second - first) / 0.7)
+        return 0.045 * lift * math.sqrt(1 - (1 - inside) ** 2) + 0.0008 * grain(u, v)
+
+    def color(u, v):
+        first, second, lift = nearest(u, v)
+        return mix((0.42, 0.37, 0.3), tint((0.55, 0.54, 0.52), lift + 0.06 * grain(u, v)), step(0.02, 0.12, second - first))
+
+    return Pattern(height, color)
+
+
 def stone(base=(0.75, 0.7, 0.63), depth=0.012, seed=41):
     """Hewn rock: ridged noise."""
     rough, fine = Grain(5, seed, 4), Grain(24, seed + 7, 3)
@@ -227,3 +257,6 @@ def stone(base=(0.75, 0.7, 0.63), depth=0.012, seed=41):
         return tint(base, 0.97 + 0.14 * rough(u, v) + 0.08 * fine(u, v))
 
     return Pattern(height, color)
+
+
+RELIEFS = {"floor": cobbles, "wall": bricks, "crate": plates}  # of the scene `cobbles`, by object
