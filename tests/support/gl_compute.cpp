@@ -116,7 +116,7 @@ GlCompute::~GlCompute() {
   eglTerminate(display_);
 }
 
-void GlCompute::add_texture(const std::string& name, const FloatImage& image) {
+void GlCompute::add_texture(const std::string& name, const FloatImage& image, Border border) {
   std::erase_if(textures_, [&](const Texture& texture) {
     if (texture.name == name) glDeleteTextures(1, &texture.id);
     return texture.name == name;
@@ -125,7 +125,7 @@ void GlCompute::add_texture(const std::string& name, const FloatImage& image) {
   glGenTextures(1, &texture.id);
   glBindTexture(GL_TEXTURE_2D, texture.id);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    glTexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, axis, border == Border::wrap ? GL_REPEAT : GL_CLAMP_TO_EDGE);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

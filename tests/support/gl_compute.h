@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "image/float_image.h"
+#include "image/sample.h"
 
 #include <span>
 #include <string>
@@ -26,8 +27,8 @@ class GlCompute {
                                       std::span<const Vec3> inputs);
 
   /// A three-channel picture as the sampler2D of this name, for the runs to come, in place of an earlier one:
-  /// 32-bit floats, bilinear, tiled; its row 0 is at v = 0.
-  void add_texture(const std::string& name, const FloatImage& image);
+  /// 32-bit floats, bilinear; its row 0 is at v = 0.
+  void add_texture(const std::string& name, const FloatImage& image, Border border = Border::wrap);
 
  private:
   struct Texture {
