@@ -1,7 +1,7 @@
 """What each encoding loses, over random hemispheres and over the texels of real scenes, into docs/encodings.md.
 
 The truth of a scene is the reference's light at the normals of scenes/study.toml, traced in one pass with what the
-encodings are made from.
+encodings are made from. Probes are written with --probes alone: they are other people's pictures.
 """
 
 import argparse
@@ -13,6 +13,13 @@ from measure import RNMBAKE, ROOT, run
 
 PAGE = ROOT / "docs" / "encodings.md"
 SCENES = ("cornell", "cave", "panels")
+# RMS of irradiance in the reports of https://github.com/kayru/Probulator (Reports/*/report.html).
+PUBLISHED = {
+    "ambient cube, least squares": {"ennis": .396569, "grace": .0436278, "pisa": .0341202, "uffizi": .181022, "wells": .0486938},
+    "sh2": {"ennis": .504977, "grace": .0823762, "pisa": .0234839, "uffizi": .27367, "wells": .0539953},
+    "geomerics, as Probulator feeds it":
+        {"ennis": .292119, "grace": .0411733, "pisa": .0375623, "uffizi": .135515, "wells": .054672},
+    "sh3": {"ennis": .0940183, "grace": .0132446, "pisa": .005105, "uffizi": .0387717}}
 
 
 def table(lights, out):
@@ -25,6 +32,40 @@ def scene_table(name, args, out):
     run([RNMBAKE, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis", ROOT / "scenes" / "study.toml",
          "--resolution", args.resolution, "--error", args.error, "--depth", "float", "-o", truth])
     return table([truth], out / name)
+
+
+def probe_rows(found):
+    """Our figures beside the published ones, and what nobody published."""
+    lines = ["| encoding | " + " | ".join(found) + " |", "|---" + "|---:" * len(found) + "|"]
+    for row in next(iter(found.values()))["probe"]["encodings"]:
+        cells = []
+        for name, figure in found.items():
+            ours = next(one["rms_by_texel"] for one in figure["probe"]["encodings"] if one["encoding"] == row["encoding"])
+            published = PUBLISHED.get(row["encoding"], {}).get(name)
+            cells.append(f"{ours:.4f}" + (f" ({published:.4f})" if published else ""))
+        lines.append(f"| {row['encoding']} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def hemisphere_rows(found):
+    lines = ["| encoding | bytes | " + " | ".join(found) + " |", "|---|---:" + "|---:" * len(found) + "|"]
+    for i, row in enumerate(next(iter(found.values()))["encodings"]):
+        cells = [f"{100 * figure['encodings'][i]['rms'][1]:.1f}" for figure in found.values()]
+        lines.append(f"| {row['label']} | {row['bytes']} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def write_probes(files, out):
+    found = {file.stem: table([file], out / file.stem)[1] for file in files}
+    document.renew(PAGE, f"""
+RMS of E/pi by texel; in brackets what Probulator's reports say.
+
+{probe_rows(found)}
+
+400 surfaces turned at random in the same light, errors in percent of the flat light up to 45 degrees:
+
+{hemisphere_rows(found)}
+""", "probes")
 
 
 def findings(figures):
@@ -46,7 +87,11 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out" / "encodings")
     parser.add_argument("--resolution", default="64")
     parser.add_argument("--error", default="1", help="percent of an object's mean")
+    parser.add_argument("--probes", type=pathlib.Path, nargs="+", metavar="FILE", help="only these probes (.hdr)")
     args = parser.parse_args()
+    if args.probes:
+        write_probes(args.probes, args.out)
+        return
     page, figures = [], {}
     text, figures["random"] = table(["random", "--count", "400"], args.out / "random")
     page.append(f"## 400 random hemispheres\n\n`rnmbake study encodings random`\n\n{text}")

@@ -89,3 +89,7 @@ foreach(CHECK page schema)
             $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/report/${CHECK}_check.py -v)
   set_tests_properties(report.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
 endforeach()
+add_test(NAME report.study
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/report/study_check.py -v)
+set_tests_properties(report.study PROPERTIES LABELS unit TIMEOUT 300)

@@ -35,4 +35,14 @@ void TextTable::write(std::ostream& out) const {
   }
 }
 
+void TextTable::write_markdown(std::ostream& out) const {
+  for (const Row& row : rows_) {
+    for (const std::string& cell : row) out << "| " << cell << ' ';
+    out << "|\n";
+    if (&row != &rows_.front()) continue;
+    for (std::size_t i = 0; i < row.size(); ++i) out << (i == 0 ? "|---" : "|---:");
+    out << "|\n";
+  }
+}
+
 }  // namespace rnmbake

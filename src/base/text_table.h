@@ -13,6 +13,8 @@ class TextTable {
   using Row = std::vector<std::string>;
   void add(Row row);
   void write(std::ostream& out) const;
+  /// The first row is the header; columns after the first are aligned to the right.
+  void write_markdown(std::ostream& out) const;
 
  private:
   std::vector<Row> rows_;

@@ -1,17 +1,17 @@
 #include "cli/study.h"
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "pipeline/study/study_lights.h"
+#include "pipeline/study/study_report.h"
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -23,34 +23,43 @@ struct StudyFlags {
   std::size_t count = 400;
   std::uint64_t seed = 1;
   std::filesystem::path output;
-  bool json = false;
+  bool is_probe = false, json = false;
 };
 
-EncodingStudy study(const StudyFlags& flags) {
-  if (flags.what == "random") return study_random(flags.count, flags.seed);
+StudyReport study(const StudyFlags& flags) {
   Progress progress("studying", progress_for(log::is_quiet(), log::is_jsonl()));
-  return study_lightmaps(flags.what, [&](double share) { progress.update(share, flags.what); });
+  const auto update = [&](double share) { progress.update(share, flags.what); };
+  const auto report = [](std::string title, const EncodingStudy& study) {
+    return StudyReport{std::move(title), study.lights(), study.errors(), {}, {}};
+  };
+  const bool pictures = !flags.output.empty();
+  if (flags.what == "random") {
+    StudyReport found =
+        report(fmt::format("{} random hemispheres", flags.count), study_random(flags.count, flags.seed));
+    if (pictures) found.pictures = sphere_pictures(sky_and_lamps());
+    return found;
+  }
+  if (flags.is_probe || lower_extension(flags.what) == ".hdr") {
+    const FloatImage picture = read_probe(flags.what);
+    if (picture.height() > most_probe_rows) {
+      log::info("{}: {} rows summed into {}; light finer than {:.1f} degrees is not told apart", flags.what,
+                picture.height(), most_probe_rows, 180.0 / most_probe_rows);
+    }
+    const DistantLight light = probe_light(picture);
+    StudyReport found = report(fmt::format("{} surfaces in the light of {}", flags.count,
+                                           std::filesystem::path(flags.what).filename().string()),
+                               study_probe(light, flags.count, flags.seed, update));
+    found.probe = study_probe_sphere(light);
+    if (pictures) found.pictures = sphere_pictures(probe_light(picture, 32));
+    return found;
+  }
+  return report(std::filesystem::path(flags.what).filename().string(), study_lightmaps(flags.what, update));
 }
 
 int run_study(const StudyFlags& flags) {
-  const EncodingStudy studied = study(flags);
-  const std::vector<EncodingErrors> errors = studied.errors();
-  const std::string json = study_json(errors, studied.lights());
-  if (!flags.output.empty()) {
-    make_folders(flags.output);
-    write_atomically(flags.output / "encodings.md", study_markdown(errors));
-    write_atomically(flags.output / "encodings.json", json);
-  }
-  if (flags.json) {
-    std::cout << json;
-  } else {
-    std::cout << "RMS error, percent of the flat light, over normals tilted up to so many degrees; "
-              << counted(studied.lights(), "light") << "\n\n"
-              << study_table(errors);
-    for (const EncodingErrors& one : errors)
-      if (!one.unfit.empty())
-        std::cout << '\n' << printable(one.label) << ": " << printable(one.unfit) << '\n';
-  }
+  const StudyReport found = study(flags);
+  if (!flags.output.empty()) write_study(found, flags.output);
+  std::cout << (flags.json ? study_json(found) : study_text(found));
   return static_cast<int>(ExitCode::ok);
 }
 
@@ -63,17 +72,22 @@ std::function<int()> add_study_command(CLI::App& app) {
       "encodings", "RMS error and bias of every encoding and packing, by the tilt of the normal");
   command->require_subcommand(1);
   encodings
-      ->add_option("lights", flags->what,
-                   "`random` hemispheres, or lightmaps that were baked for flat, rnm0 to rnm2 and for the "
-                   "directions to "
-                   "test at (--basis)")
+      ->add_option(
+          "lights", flags->what,
+          "`random` hemispheres; a probe, that is a picture (.hdr) of the light around a point in "
+          "latitudes and longitudes; or lightmaps that were baked for flat, rnm0 to rnm2 and for the "
+          "directions to test at (--basis)")
       ->required()
-      ->type_name("random|LIGHTMAPS");
-  encodings->add_option("--count", flags->count, "random hemispheres [400]")
+      ->type_name("random|PROBE|LIGHTMAPS");
+  encodings->add_flag("--probe", flags->is_probe, "it is a probe, though its name does not end in .hdr");
+  encodings
+      ->add_option("--count", flags->count, "random hemispheres, or surfaces in the light of a probe [400]")
       ->check(CLI::Range(1, 1000000).description(""))
       ->type_name("N");
-  encodings->add_option("--seed", flags->seed, "of the random hemispheres [1]")->type_name("N");
-  encodings->add_option("-o,--output", flags->output, "write encodings.md and encodings.json there")
+  encodings->add_option("--seed", flags->seed, "of the random hemispheres or surfaces [1]")->type_name("N");
+  encodings
+      ->add_option("-o,--output", flags->output,
+                   "write encodings.html, encodings.md and encodings.json there, and pictures of spheres")
       ->type_name("DIR");
   encodings->add_flag("--json", flags->json, "print what goes into encodings.json instead of the table");
   return [flags] { return run_study(*flags); };

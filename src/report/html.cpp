@@ -1,5 +1,6 @@
 #include "report/document.h"
 #include "report/finding.h"
+#include "report/html_fill.h"
 #include "report/html_parts.h"
 #include "report/maps.h"
 #include "report/pack.h"
@@ -16,37 +17,6 @@ using json = nlohmann::ordered_json;
 
 constexpr int noise_bits = 5;  // 1.6 %: a standard error need not be known better
 constexpr int smallest_map = 8;
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-/// JSON that may stand within <script>: no text of it can end the element or begin a comment.
-std::string for_script(const json& document) {
-  const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
-  std::string out;
-  for (const char c : text) out += c == '<' ? "\\u003c" : std::string(1, c);
-  return out;
-}
 
 /// Textures of one size that are unpacked together.
 struct Bundle {
@@ -128,49 +98,18 @@ json add_views(const Report& report, int limit, Blobs& blobs) {
   return views;
 }
 
-/// Page with each {{name}} replaced, once: {{name}} in a replacement stays.
-std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& parts) {
-  std::string out;
-  for (std::size_t at = 0; at < page.size();) {
-    const std::size_t open = std::min(page.find("{{", at), page.size());
-    out += page.substr(at, open - at);
-    if (open == page.size()) break;
-    const std::size_t close = page.find("}}", open);
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto part = std::ranges::find(parts, name, &std::pair<std::string, std::string>::first);
-    if (part != parts.end()) out += part->second;
-    at = close + 2;
-  }
-  return out;
-}
-
-/// Text of all embedded files with that ending.
-std::string embedded(std::string_view ending) {
-  std::string text;
-  for (const auto& [name, content] : embedded_report()) {
-    if (std::string_view(name).ends_with(ending)) text += content;
-  }
-  return text;
-}
-
-/// Numbers stay on one line with their sign.
-std::string unbroken(std::string text) {
-  for (auto at = text.find(" %"); at != std::string::npos; at = text.find(" %", at))
-    text.replace(at, 1, "\u00a0");
-  return text;
-}
-
 std::string page_with(const Report& report, const Limits& limits, int view_limit) {
   Blobs blobs;
   json pictures{{"objects", add_maps(report, limits, blobs)},
                 {"views", add_views(report, view_limit, blobs)}};
-  return filled(embedded("page.html"), {{"title", escaped(report.title)},
-                                        {"finding", unbroken(escaped(report.finding))},
-                                        {"style", embedded(".css")},
-                                        {"report", for_script(report_document(report))},
-                                        {"pictures", for_script(pictures)},
-                                        {"blobs", blobs.text()},
-                                        {"script", embedded(".js")}});
+  return filled(embedded_files(embedded_report(), "page.html"),
+                {{"title", escaped(report.title)},
+                 {"finding", unbroken(escaped(report.finding))},
+                 {"style", embedded_files(embedded_report(), ".css")},
+                 {"report", for_script(report_document(report))},
+                 {"pictures", for_script(pictures)},
+                 {"blobs", blobs.text()},
+                 {"script", embedded_files(embedded_report(), ".js")}});
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class Browser:
             self.problems.append(" ".join(str(one.get("value")) for one in params["args"]))
         elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
             self.problems.append(params["entry"]["text"])
-        elif method == "Network.requestWillBeSent" and not params["request"]["url"].startswith(("file:", "about:")):
+        elif method == "Network.requestWillBeSent" and not params["request"]["url"].startswith(("file:", "about:", "data:")):
             self.problems.append("request: " + params["request"]["url"])
 
     def call(self, method, **params):

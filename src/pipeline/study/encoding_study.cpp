@@ -44,29 +44,34 @@ std::string percent(double share) {
   return fmt::format("{:.1f}", 100 * share);
 }
 
-/// Header and rows of the table, cells as text.
-std::vector<std::vector<std::string>> cells(const std::vector<EncodingErrors>& errors) {
-  std::vector<std::vector<std::string>> rows{{"encoding", "bakes", "bytes"}};
-  for (const double limit : tilt_limits) rows.front().push_back(fmt::format("<= {:g}", limit));
-  rows.front().emplace_back("flat bias");
+TextTable table_of(const std::vector<EncodingErrors>& errors) {
+  TextTable table;
+  TextTable::Row header{"encoding", "bakes", "bytes"};
+  for (const double limit : tilt_limits) header.push_back(fmt::format("<= {:g}", limit));
+  header.emplace_back("flat bias");
+  table.add(std::move(header));
   for (const EncodingErrors& one : errors) {
     if (!one.unfit.empty()) continue;
-    std::vector<std::string> row{one.label, std::to_string(one.bakes), std::to_string(one.bytes)};
+    TextTable::Row row{one.label, std::to_string(one.bakes), std::to_string(one.bytes)};
     for (const double rms : one.rms) row.push_back(percent(rms));
     row.push_back(fmt::format("{:+.1f}", 100 * one.flat_bias));
-    rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
-  return rows;
+  return table;
 }
-
-}  // namespace
-
-namespace {
 
 struct StudiedCodec {
   EncodingErrors errors;  // what they are of; the figures are 0
   std::unique_ptr<const Codec> codec;
   std::vector<std::size_t> feeds;  // [directions of the codec] -> directions of the study
+
+  [[nodiscard]] std::vector<Vec3> encoded(std::span<const Vec3> at_fed) const {
+    std::vector<Vec3> layers(codec->layers().size()), irradiance;
+    irradiance.reserve(feeds.size());
+    for (const std::size_t place : feeds) irradiance.push_back(at_fed[place]);
+    (void)codec->encode(irradiance, layers);
+    return layers;
+  }
 
   /// Takes the first of the sets, small ones first, that `fed` holds and the codec can be made from.
   void feed(const BasisSet& fed) {
@@ -138,10 +143,7 @@ void EncodingStudy::add_codec(std::size_t codec, std::span<const Vec3> at_fed,
   const StudiedCodec& studied = setup_->codecs[codec];
   if (!studied.codec) return;
   Sums& sums = sums_[codec];
-  std::vector<Vec3> layers(studied.codec->layers().size()), irradiance;
-  irradiance.reserve(studied.feeds.size());
-  for (const std::size_t place : studied.feeds) irradiance.push_back(at_fed[place]);
-  (void)studied.codec->encode(irradiance, layers);
+  const std::vector<Vec3> layers = studied.encoded(at_fed);
   for (std::size_t i = 0; i < at_normals.size(); ++i) {
     const Vec3 error = studied.codec->decode(layers, setup_->normals[i]) - at_normals[i];
     if (setup_->bands[i] == tilt_limits.size()) continue;
@@ -170,6 +172,13 @@ void EncodingStudy::merge(const EncodingStudy& other) {
   flat_squares_ += other.flat_squares_;
   flat_sum_ += other.flat_sum_;
   lights_ += other.lights_;
+}
+
+std::vector<Vec3> EncodingStudy::decoded(std::span<const Vec3> at_fed, const Vec3& normal) const {
+  std::vector<Vec3> all;
+  for (const StudiedCodec& studied : setup_->codecs)
+    all.push_back(studied.codec ? studied.codec->decode(studied.encoded(at_fed), normal) : Vec3(0));
+  return all;
 }
 
 std::vector<EncodingErrors> EncodingStudy::errors() const {
@@ -203,25 +212,15 @@ std::vector<CodecOptions> encodings_to_study() {
 }
 
 std::string study_table(const std::vector<EncodingErrors>& errors) {
-  TextTable table;
-  for (const auto& row : cells(errors)) table.add(row);
   std::ostringstream out;
-  table.write(out);
+  table_of(errors).write(out);
   return out.str();
 }
 
 std::string study_markdown(const std::vector<EncodingErrors>& errors) {
-  std::string text;
-  bool is_header = true;
-  for (const auto& row : cells(errors)) {
-    for (const std::string& cell : row) text += "| " + cell + " ";
-    text += "|\n";
-    if (std::exchange(is_header, false)) {
-      for (std::size_t i = 0; i < row.size(); ++i) text += i == 0 ? "|---" : "|---:";
-      text += "|\n";
-    }
-  }
-  return text;
+  std::ostringstream out;
+  table_of(errors).write_markdown(out);
+  return out.str();
 }
 
 std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t lights) {

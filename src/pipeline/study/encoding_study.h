@@ -47,6 +47,10 @@ class EncodingStudy {
 
   [[nodiscard]] std::size_t lights() const { return lights_; }
 
+  /// What each encoding decodes of one light, given as for add(), at a unit normal of tangent space; 0 where
+  /// it is unfit. In the order of encodings_to_study().
+  [[nodiscard]] std::vector<Vec3> decoded(std::span<const Vec3> at_fed, const Vec3& normal) const;
+
   /// In the order of encodings_to_study().
   [[nodiscard]] std::vector<EncodingErrors> errors() const;
 

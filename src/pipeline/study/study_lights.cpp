@@ -115,6 +115,39 @@ EncodingStudy study_random(std::size_t count, std::uint64_t seed) {
   return study;
 }
 
+EncodingStudy study_probe(const DistantLight& light, std::size_t count, std::uint64_t seed,
+                          const std::function<void(double)>& progress) {
+  const BasisSet fed = direction_set("sh3").value();
+  std::vector<Vec3> directions, normals;
+  for (const BasisDirection& basis : fed.directions) directions.push_back(basis.direction);
+  for (const Vec3d& normal : spread_over_hemisphere(tested_normals)) normals.emplace_back(normal);
+  directions.insert(directions.end(), normals.begin(), normals.end());
+  EncodingStudy study(fed, normals);
+  std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
+  constexpr std::size_t at_once = 64;
+  for (std::size_t begin = 0; begin < count; begin += at_once) {
+    if (progress) progress(double(begin) / double(count));
+    std::vector<std::array<Vec3, 3>> frames;  // tangent, bitangent, normal of the surfaces
+    while (frames.size() < std::min(at_once, count - begin)) {
+      const Vec3 normal(random_direction(random)), tangent = normal.cross(Vec3(random_direction(random)));
+      if (tangent.length() > 1e-3F)
+        frames.push_back({tangent.normalized(), normal.cross(tangent.normalized()), normal});
+    }
+    std::vector<std::vector<Vec3>> lights(frames.size());
+    tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
+      const auto& [tangent, bitangent, normal] = frames[i];
+      std::vector<Vec3> world;
+      for (const Vec3& d : directions) world.push_back(tangent * d.x + bitangent * d.y + normal * d.z);
+      lights[i] = irradiance(light, normal, world);
+    });
+    for (const std::vector<Vec3>& values : lights) {  // in their order: sums do not depend on threads
+      const std::span<const Vec3> all(values);
+      study.add(all.first(fed.directions.size()), all.subspan(fed.directions.size()));
+    }
+  }
+  return study;
+}
+
 EncodingStudy study_lightmaps(const std::filesystem::path& path,
                               const std::function<void(double)>& progress) {
   const LightmapFolder folder = open_lightmaps(path);
