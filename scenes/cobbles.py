@@ -19,7 +19,7 @@ def _figure(name, x, y, material):
     profile = [(0.32, 0.0), (0.34, 0.06), (0.3, 0.14), (0.2, 0.3), (0.15, 0.6), (0.13, 0.9), (0.15, 1.05), (0.24, 1.12),
                (0.24, 1.16), (0.14, 1.22)]
     head = [(0.22 * math.cos(a), 1.42 + 0.22 * math.sin(a)) for a in (math.pi * (i / 11.8 - 0.35) for i in range(11))]
-    builder.lathe([*profile, *head], 48, (x, y, 0))
+    builder.lathe([*profile, *head, (0.0004, 1.64)], 48, (x, y, 0))
     builder.object(name, [material])
 
 

@@ -1,6 +1,7 @@
 #include "shader_runs.h"
 #include "support/deferred_shadows.h"
 
+#include <algorithm>
 #include <array>
 
 namespace rnmbake {

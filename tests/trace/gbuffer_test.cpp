@@ -2,6 +2,7 @@
 
 #include "trace/trace_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
