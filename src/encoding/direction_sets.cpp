@@ -1,5 +1,6 @@
 #include "encoding/direction_sets.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <spdlog/fmt/fmt.h>
@@ -26,6 +27,20 @@ std::optional<BasisSet> direction_set(std::string_view name) {
   if (is_h6 || is_sh3) add_ring(set, 30, 0);
   if (is_sh3) add_ring(set, 80, 60);
   return set;
+}
+
+std::string name_of_set(const std::vector<BasisDirection>& directions) {
+  const auto is_all_of = [&](const BasisSet& set) {
+    return set.directions.size() == directions.size() &&
+           std::ranges::all_of(directions,
+                               [&](const auto& basis) { return place_of(set, basis).has_value(); });
+  };
+  for (const char* name : {"l1", "h6", "sh3"})
+    if (is_all_of(*direction_set(name))) return name;
+  if (is_all_of(flat_and_rnm())) return "rnm";
+  std::string names;
+  for (const BasisDirection& basis : directions) names += (names.empty() ? "" : ",") + basis.name;
+  return names;
 }
 
 }  // namespace rnmbake

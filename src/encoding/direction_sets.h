@@ -4,7 +4,9 @@
 #include "encoding/basis_set.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace rnmbake {
 
@@ -19,5 +21,9 @@ namespace rnmbake {
 /// Condition numbers of the fits (encoding/fit/least_squares.h): sh2 9.6 on l1, h4 2.5 on l1, h6 2.9 on h6,
 /// sg 19 on sg, sh3 28 on sh3; tests hold them. Nothing where there is no such set.
 [[nodiscard]] std::optional<BasisSet> direction_set(std::string_view name);
+
+/// "h6", ... where the directions are those of a set above (of sg: "h6"), "rnm" for flat and rnm, else their
+/// names separated by commas: for messages.
+[[nodiscard]] std::string name_of_set(const std::vector<BasisDirection>& directions);
 
 }  // namespace rnmbake
