@@ -34,7 +34,7 @@ function(rnm_fuzz_targets)
   endforeach()
   # Project files, and basis files, whose reader stands in the cli room.
   add_executable(project_fuzz EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_fuzz.cpp
-                                               ${CMAKE_SOURCE_DIR}/src/cli/basis_file.cpp)
+                                               ${CMAKE_SOURCE_DIR}/src/cli/bases/basis_file.cpp)
   target_link_options(project_fuzz PRIVATE -fsanitize=fuzzer)
   target_link_libraries(project_fuzz PRIVATE config encoding tomlplusplus::tomlplusplus rnm_warnings)
   add_executable(project_seeds EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/fuzz/project_seeds.cpp)

@@ -4,7 +4,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
-#include "cli/basis_file.h"
+#include "cli/bases/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/scene/scene_survey.h"

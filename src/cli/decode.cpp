@@ -8,12 +8,14 @@
 #include "image/layered_exr.h"
 #include "lightmap/decode.h"
 #include "lightmap/layout.h"
+#include "pipeline/ssbump/decode_directions.h"
 #include "pipeline/ssbump/decode_ssbump.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -147,10 +149,30 @@ void check_options(DecodeOptions& options) {
   if (options.flip_green) options.normal_green = "y-down";
 }
 
+/// A self-shadowed bump map of a set of directions; nothing for all else.
+std::optional<DirectionMap> direction_map_of(const DecodeOptions& options) {
+  if (options.ssbump.empty()) return std::nullopt;
+  auto map = read_direction_map(options.ssbump);
+  if (!map) return std::nullopt;
+  if (!options.variant.empty() || !options.ssbump_scale.empty() || !options.ssbump_handed.empty()) {
+    fail(ExitCode::usage,
+         "{} holds weights for lightmaps as they are baked; leave out --variant, --ssbump-scale and "
+         "--ssbump-handed",
+         options.ssbump.string());
+  }
+  return map;
+}
+
 int run_decode(DecodeOptions options) {
   check_options(options);
+  const auto directions = direction_map_of(options);
   const LayeredImage image = read_image(options.lightmap);
   const LightmapMetadata metadata = metadata_of(options, image);
+  if (directions) {
+    options.variant = directions->metadata.set.name;
+    write(options, decode_directions(lightmap_of(image, metadata), *directions));
+    return static_cast<int>(ExitCode::ok);
+  }
   if (options.variant.empty() && options.ssbump.empty()) options.variant = name_of(natural_variant(metadata));
   if (options.variant.empty()) options.variant = name_of(DecodeVariant::squared);
   check_fit(options, metadata);

@@ -4,7 +4,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
-#include "cli/basis_file.h"
+#include "cli/bases/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/scene/export_scene.h"

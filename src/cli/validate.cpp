@@ -5,7 +5,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
-#include "cli/basis_file.h"
+#include "cli/bases/basis_file.h"
 #include "cli/command_line.h"
 #include "cli/settings_flags.h"
 #include "config/recipe_names.h"

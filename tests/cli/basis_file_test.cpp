@@ -1,4 +1,4 @@
-#include "cli/basis_file.h"
+#include "cli/bases/basis_file.h"
 
 #include "base/error.h"
 #include "base/files.h"

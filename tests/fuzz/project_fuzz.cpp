@@ -2,7 +2,7 @@
 // Error, and the settings that came of it can be printed and read again. Run by ./dev fuzz project.
 #include "base/error.h"
 #include "base/files.h"
-#include "cli/basis_file.h"
+#include "cli/bases/basis_file.h"
 #include "config/document.h"
 #include "config/project_file.h"
 #include "config/resolve.h"

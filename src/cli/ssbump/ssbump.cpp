@@ -26,11 +26,16 @@ constexpr const char* examples =
     "  rnmbake ssbump depth.exr --invert --height-world 0.2 --texel-size 0.004 -o wall.exr\n"
     "  rnmbake ssbump bricks_height.png --alpha up --normal bricks_n.png -o bricks_ssbump.png\n"
     "  rnmbake ssbump trim.png --wrap x --filter-radius 0 --bits 16 -o trim.png\n"
+    "  rnmbake ssbump bricks_height.png --basis-set h6 -o bricks_h6.exr   for lightmaps of ten directions\n"
     "  rnmbake ssbump --from-mesh statue_high.glb --onto statue_low.glb -o statue_ssbump.png\n"
     "  rnmbake ssbump info bricks_ssbump.png            what a map holds\n"
     "  rnmbake ssbump compress-check bricks_ssbump.png  what BC1, RGB565 and BC7 would do to it";
 
 constexpr std::array channel_names{"right", "upper left", "lower left", "up", "ambient"};
+
+nlohmann::ordered_json json_of(const WeightRange& range) {
+  return {{"least", range.least}, {"mean", range.mean}, {"greatest", range.greatest}};
+}
 
 nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunSummary& summary) {
   nlohmann::ordered_json json;
@@ -44,13 +49,18 @@ nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunS
   json["edge_threshold"] = summary.edge;
   if (summary.azimuths > 0) json["azimuths"] = summary.azimuths;
   if (summary.rmse >= 0) json["rmse"] = summary.rmse;
+  if (options.directions) {
+    json["set"] = options.directions->set.name;
+    for (std::size_t c = 0; c < summary.ranges.size(); ++c)
+      json["weights"][options.directions->set.directions[c].name] = json_of(summary.ranges[c]);
+    for (const auto& [step, seconds] : summary.seconds) json["seconds"][step] = seconds;
+    return json;
+  }
   json["scale"] = name_of(options.output.encoding.scale);
   json["handedness"] = name_of(options.output.encoding.handed);
   json["alpha"] = name_of(options.output.encoding.alpha);
   for (std::size_t c = 0; c < summary.ranges.size(); ++c) {
-    const WeightRange& range = summary.ranges[c];
-    json["weights"][channel_names.at(c)] = {
-        {"least", range.least}, {"mean", range.mean}, {"greatest", range.greatest}};
+    json["weights"][channel_names.at(c)] = json_of(summary.ranges[c]);
   }
   for (const auto& [step, seconds] : summary.seconds) json["seconds"][step] = seconds;
   return json;
@@ -68,6 +78,9 @@ int run_ssbump(const SsbumpFlags& flags) {
   const SsbumpRunSummary summary = made(flags, options);
   if (flags.json) {
     std::cout << json_of(options, summary).dump(2) << '\n';
+  } else if (options.directions) {
+    log::info("{}: {} x {}, weights for the {} lightmaps of the set {}", options.output.file.string(),
+              summary.width, summary.height, summary.ranges.size(), options.directions->set.name);
   } else {
     log::info("{}: {} x {}, {:.1f} % of the sky is open on average", options.output.file.string(),
               summary.width, summary.height, 100 * summary.ranges.back().mean);

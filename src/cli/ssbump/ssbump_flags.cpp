@@ -53,6 +53,7 @@ SsbumpFlags::SsbumpFlags(CLI::App& command) : meshes_(command) {
   add_height_flags(command);
   add_surface_flags(command);
   add_method_flags(command);
+  add_direction_flags(command);
   add_output_flags(command);
 }
 
@@ -247,6 +248,7 @@ SsbumpRunOptions SsbumpFlags::options() const {
   options.heights = height_options();
   options.generate = generate_options();
   options.output = output_options();
+  options.directions = direction_options();
   if (method_ == "blender")
     options.baked = [this](const HeightField& field) { return meshes_.bake(field, rays()); };
   check_files(options);

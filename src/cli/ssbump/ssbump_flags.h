@@ -39,6 +39,8 @@ class SsbumpFlags {
   [[nodiscard]] GenerateOptions generate_options() const;
   [[nodiscard]] SsbumpOutput output_options() const;
 
+  void add_direction_flags(CLI::App& command);
+  [[nodiscard]] std::optional<DirectionOptions> direction_options() const;
   [[nodiscard]] SsbumpRays rays() const;
   void check_files(const SsbumpRunOptions& options) const;
 
@@ -46,7 +48,8 @@ class SsbumpFlags {
   SsbumpRunOptions run_;
   std::optional<double> height_, height_world_, texel_size_;
   std::uint64_t memory_mib_ = 0;
-  std::string wrap_ = "x,y", method_ = "horizon", scale_ = "third", handed_ = "right", alpha_ = "none", bits_;
+  std::string wrap_ = "x,y", method_, scale_ = "third", handed_ = "right", alpha_ = "none", bits_, basis_set_,
+              fit_ = "free";
   bool alpha_ao_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "cli/ssbump/ssbump_tool_flags.h"
 #include "cli/ssbump/ssbump_tools.h"
+#include "ssbump/map/direction_map.h"
 #include "ssbump/map/normals.h"
 #include "ssbump/map/weights.h"
 
@@ -109,7 +110,71 @@ void print(const InfoOptions& options, const SsbumpPicture& picture) {
   std::cout << fmt::format("\nBent normals lean {:.1f} degrees on average, {:.1f} at most.\n", mean, most);
 }
 
+std::vector<ChannelStats> stats_of(const DirectionMap& map) {
+  std::vector<ChannelStats> all;
+  for (const BasisDirection& basis : map.metadata.set.directions) {
+    ChannelStats stats{basis.name.c_str(), INFINITY, 0, -INFINITY};
+    const auto& data = map.weights.data();
+    const auto channels = static_cast<std::size_t>(map.weights.channels());
+    for (std::size_t at = all.size(); at < data.size(); at += channels) {
+      stats.least = std::min<double>(stats.least, data[at]);
+      stats.greatest = std::max<double>(stats.greatest, data[at]);
+      stats.mean += double{data[at]};
+    }
+    stats.mean /= static_cast<double>(map.weights.texels());
+    all.push_back(stats);
+  }
+  return all;
+}
+
+void print_directions_json(const InfoOptions& options, const DirectionMap& map) {
+  nlohmann::ordered_json json;
+  json["file"] = options.input.file.string();
+  json["width"] = map.weights.width();
+  json["height"] = map.weights.height();
+  json["storage"] = map.storage;
+  json["metadata"] = true;
+  json["set"] = map.metadata.set.name;
+  for (const auto& [name, v] : map.metadata.set.directions) json["basis"][name] = {v.x, v.y, v.z};
+  json["fit"] = map.metadata.fit;
+  json["method"] = map.metadata.method;
+  json["settings"] = map.metadata.settings;
+  for (const ChannelStats& stats : stats_of(map))
+    json["weights"][stats.name] = {
+        {"least", stats.least}, {"mean", stats.mean}, {"greatest", stats.greatest}};
+  std::cout << json.dump(2) << '\n';
+}
+
+void print_directions(const InfoOptions& options, const DirectionMap& map) {
+  const auto row = [](const char* name, const std::string& value) {
+    std::cout << printable(fmt::format("{:<12} {}", name, value)) << '\n';
+  };
+  row("file", fmt::format("{}, {} x {}, {}", options.input.file.string(), map.weights.width(),
+                          map.weights.height(), map.storage));
+  row("set", fmt::format("{}: {} directions, E = sum of s_i LM_i", map.metadata.set.name,
+                         map.metadata.set.directions.size()));
+  row("handedness", "right");
+  row("fit", map.metadata.fit);
+  row("method", map.metadata.method);
+  row("settings", map.metadata.settings);
+  std::cout << fmt::format("\n{:<12} {:>8} {:>8} {:>8}   direction\n", "weight", "least", "mean", "greatest");
+  const auto all = stats_of(map);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Vec3& v = map.metadata.set.directions[i].direction;
+    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}   {:.3f} {:.3f} {:.3f}\n", all[i].name,
+                             all[i].least, all[i].mean, all[i].greatest, v.x, v.y, v.z);
+  }
+}
+
 int run_info(const InfoOptions& options) {
+  if (const auto map = read_direction_map(options.input.file)) {
+    const SsbumpInputFlags& input = options.input;
+    if (!input.scale.empty() || !input.handed.empty() || !input.alpha.empty())
+      fail(ExitCode::usage, "{} says of itself what it holds; leave out --scale, --handed and --alpha",
+           input.file.string());
+    options.json ? print_directions_json(options, *map) : print_directions(options, *map);
+    return static_cast<int>(ExitCode::ok);
+  }
   const SsbumpPicture picture = options.input.read();
   if (options.json) {
     print_json(options, picture);

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "blender/blender_session.h"
+#include "pipeline/ssbump/direction_files.h"
 #include "process/stop.h"
 #include "ssbump/generate/albedo.h"
 #include "ssbump/heights/bilateral.h"
@@ -45,8 +46,10 @@ class SsbumpOutputs {
     if (options_.filter_radius > 0) step("filter", [&] { filter(); });
     step("generate", [&] { generate_files(); });
     for (const auto& file : files_) file->commit();
-    map_->commit();
-    summary_.ranges = map_->ranges();
+    if (map_) {
+      map_->commit();
+      summary_.ranges = map_->ranges();
+    }
     return std::move(summary_);
   }
 
@@ -95,6 +98,7 @@ class SsbumpOutputs {
   void generate_files() {
     if (!options_.dump_height.empty()) dump_height();
     if (!options_.normal.empty()) write_normals();
+    if (options_.directions) return generate_directions();
     map_ = std::make_unique<SsbumpFile>(options_.output, metadata(), field_.width(), field_.height());
     if (options_.baked) {
       progress_.update(filtered_until, "Cycles");
@@ -102,6 +106,21 @@ class SsbumpOutputs {
     } else {
       generate_map();
     }
+    check_stop();
+  }
+
+  void generate_directions() {
+    const DirectionOptions& directions = *options_.directions;
+    const Storage storage = storage_of(options_.output.file, options_.output.bits);
+    const DirectionMapMetadata form{directions.set, directions.sign == WeightSign::free ? "free" : "positive",
+                                    "trace",
+                                    settings_of_heights() + fmt::format(", rays {}", directions.rays)};
+    auto& writer = files_.emplace_back(std::make_unique<PictureWriter>(
+        options_.output.file, direction_map_form(form, field_.width(), field_.height(), storage)));
+    summary_.ranges = write_directions(
+        field_, directions, *writer,
+        [&](double share) { progress_.update(filtered_until + share * (1 - filtered_until), "generating"); },
+        [] { return StopRequest::requested(); });
     check_stop();
   }
 
@@ -126,13 +145,18 @@ class SsbumpOutputs {
     map_->write(first_row, modulated);
   }
 
+  [[nodiscard]] std::string settings_of_heights() const {
+    std::string settings = fmt::format("height {:g} texels", summary_.heights.texels);
+    if (options_.filter_radius > 0) settings += fmt::format(", filter {}", options_.filter_radius);
+    return settings;
+  }
+
   [[nodiscard]] SsbumpMetadata metadata() const {
     SsbumpMetadata metadata;
     const GenerateOptions& generate = options_.generate;
     metadata.power = generate.method == SsbumpMethod::cone ? 1 : generate.power;
     metadata.method = options_.baked ? "blender" : name_of(generate.method);
-    metadata.settings = fmt::format("height {:g} texels", summary_.heights.texels);
-    if (options_.filter_radius > 0) metadata.settings += fmt::format(", filter {}", options_.filter_radius);
+    metadata.settings = settings_of_heights();
     if (generate.method != SsbumpMethod::horizon || options_.baked)
       metadata.settings += fmt::format(", rays {}", generate.rays);
     else if (generate.azimuths > 0)

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "image/channels.h"
+#include "ssbump/map/direction_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,12 @@ SsbumpMetadata assumed(const std::string& file, const SsbumpHints& hints) {
 
 SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpHints& hints) {
   PictureReader reader(file);
+  if (is_direction_map(reader.facts().attributes)) {
+    fail(ExitCode::unsupported,
+         "{} holds weights of a set of directions, which 'ssbump info' and 'decode' read; give a map of the "
+         "three axes, made without --basis-set",
+         file.string());
+  }
   SsbumpPicture picture;
   const auto own = ssbump_metadata(reader.facts().attributes, file.string());
   picture.knows_itself = own.has_value();

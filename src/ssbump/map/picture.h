@@ -27,7 +27,8 @@ struct SsbumpPicture {
 };
 
 /// Reads the encoding from the file's metadata, else from `told`, else takes scale third, right-handed, no
-/// alpha, with a warning. Throws Error(usage) where `told` contradicts the file, Error(invalid_input) where
+/// alpha, with a warning. Throws Error(usage) where `told` contradicts the file,
+/// Error(unsupported) where it is a map of a set of directions (direction_map.h), Error(invalid_input) where
 /// there are fewer than three channels or a value is not finite (naming the texel), and as PictureReader.
 [[nodiscard]] SsbumpPicture read_ssbump(const std::filesystem::path& file, const SsbumpHints& hints);
 

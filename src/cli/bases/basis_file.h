@@ -1,4 +1,4 @@
-// cli/basis_file.h - the directions to bake for, out of RNM's or of a list in TOML.
+// cli/bases/basis_file.h - the directions to bake for, out of RNM's or of a list in TOML.
 #pragma once
 
 #include "config/bake_settings.h"
