@@ -90,6 +90,11 @@ class Measurement {
   }
 
   void run() const {
+    report({{"weights", "no shadow"}, {"set", "normal map"}, {"channels", 0}},
+           [&](int x, int y, const Vec3& sun) {
+             const auto n = normals_.texel(x, y);
+             return double{std::max(0.0F, sun.dot(Vec3(n[0], n[1], n[2])))};
+           });
     for (const double power : {1.0, 4.0}) axes(power);
     BasisSet three = rnm_set();
     three.name = "three axes";

@@ -29,7 +29,8 @@ def summary(rows):
     contrast = sum(row["contrast"] for row in rows) / count
     below = sum(row["below"] for row in rows) / count
     noise = f"{sum(row['noise'] for row in rows) / count:.2f}" if "noise" in rows[0] else ""
-    return [str(2 * rows[0]["channels"]), f"{rmse:.3f}", f"{100 * contrast:.0f} %", f"{100 * below:.0f} %", noise]
+    size = str(2 * rows[0]["channels"]) if rows[0]["channels"] else ""
+    return [size, f"{rmse:.3f}", f"{100 * contrast:.0f} %", f"{100 * below:.0f} %", noise]
 
 
 def text(rows):
