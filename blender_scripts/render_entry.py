@@ -1,10 +1,10 @@
-"""Cycles renders a camera's view, for `rnmbake render --with cycles` (docs/render.md). Run by Blender:
+"""Cycles or Eevee renders a camera's view, for `rnmbake render --with` (docs/render.md). Run by Blender:
 
     blender -b SCENE --python render_entry.py -- request.json
 
-Request: "scene" (see opening/load.py), "cycles" (see scene_ops/cycles.py), "camera" (docs/rnmscene-format.md),
-"pixel_shape" (width of a pixel over its height), "width", "height", "normal_maps" (whether lambert materials get
-theirs back) and "seeds". Answers with one linear EXR for each seed.
+Request: "scene" (see opening/load.py), "engine" ("cycles" or "eevee"), "cycles" (see scene_ops/cycles.py), "camera"
+(docs/rnmscene-format.md), "pixel_shape" (width of a pixel over its height), "width", "height", "normal_maps" (whether
+lambert materials get theirs back) and "seeds". Answers with one linear EXR for each seed.
 """
 import os
 import sys
@@ -16,7 +16,7 @@ import bpy  # noqa: E402
 from core.task import run  # noqa: E402
 from opening.load import open_to_measure  # noqa: E402
 from render import camera, normals  # noqa: E402
-from scene_ops import cycles  # noqa: E402
+from scene_ops import cycles, eevee  # noqa: E402
 
 
 def main(task):
@@ -32,8 +32,13 @@ def main(task):
 def render(task, scene, number):
     seeds = task.request["seeds"]
     seed = seeds[number]
-    cycles.apply_settings(scene, {**task.request["cycles"], "seed": seed})
-    samples = cycles.samples_of_picture(scene, task.request["width"], task.request["height"])
+    settings = {**task.request["cycles"], "seed": seed}
+    if task.request["engine"] == "eevee":
+        eevee.apply_settings(scene, settings)
+        samples = settings["samples"]
+    else:
+        cycles.apply_settings(scene, settings)
+        samples = cycles.samples_of_picture(scene, task.request["width"], task.request["height"])
     task.progress("render", f"seed {seed}", number, len(seeds), number + 1, samples)
     camera.settle(scene)
     name = f"view{seed}.exr"

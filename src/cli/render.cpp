@@ -11,8 +11,8 @@
 #include "image/layered_exr.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/reference/reference_plan.h"
+#include "pipeline/render/render_blender.h"
 #include "pipeline/render/render_compare.h"
-#include "pipeline/render/render_cycles.h"
 #include "pipeline/render/render_gbuffer.h"
 #include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/fit_camera.h"
@@ -48,7 +48,7 @@ class OpenScene {
         exported_(opened()),
         plan_(plan_reference(config_, exported_.diffuse_scene.survey.blender_version)),
         scene_(exported_.diffuse_scene, plan_.blender_version) {
-    if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps, exported_.diffuse_scene);
+    if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps.front(), exported_.diffuse_scene);
     if (lightmaps_ && !lightmaps_->bare().empty())
       log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
     if (lightmaps_ && flags.decode_by_header)
@@ -56,9 +56,9 @@ class OpenScene {
   }
 
   void write_picture() {
-    const RenderOptions options = render_options(flags_.with == "cycles");
+    const RenderOptions options = render_options(!flags_.with.empty());
     if (flags_.gbuffer) return write_gbuffer(options.view);
-    if (flags_.with == "cycles") return write({cycles(options), {}, {}});
+    if (!flags_.with.empty()) return write({by_blender(options), {}, {}});
     write(render_view(scene_, lightmaps(), *lighting_of(decode_), options));
   }
 
@@ -66,14 +66,16 @@ class OpenScene {
     ViewCompareOptions options;
     options.render = render_options(true);
     options.own_materials = flags_.materials == "full";
+    options.with_eevee = flags_.with == "eevee";
+    options.encoded.assign(flags_.lightmaps.begin() + 1, flags_.lightmaps.end());
     Report report;
     report.views.push_back(compare_view(session_, exported_, scene_, *lightmaps_, options));
     report.finding = finding_of(report.views.front());
     const ViewOptions& view = options.render.view;
     report.settings = {{"size", fmt::format("{} x {}", view.width, view.height)},
                        {"samples", fmt::format("{} of what is traced", view.samples)},
-                       {"lightmaps", flags_.lightmaps.string()},
-                       {"Cycles' materials", flags_.materials}};
+                       {"lightmaps", flags_.lightmaps.front().string()},
+                       {"Blender's materials", flags_.materials}};
     report.versions = {{"Blender", plan_.blender_version}};
     return report;
   }
@@ -94,10 +96,10 @@ class OpenScene {
     write_exr(flags_.output, image, Depth::full);
   }
 
-  [[nodiscard]] RenderOptions render_options(bool cycles) const {
+  [[nodiscard]] RenderOptions render_options(bool by_blender) const {
     RenderOptions options = rnmbake::render_options(camera_of(exported_.diffuse_scene));
     if (const auto size = flags_.size()) std::tie(options.view.width, options.view.height) = *size;
-    const bool traced = cycles || decode_ == "truth";
+    const bool traced = by_blender || decode_ == "truth";
     options.view.samples = flags_.samples > 0 ? flags_.samples : traced ? traced_samples : looked_up_samples;
     options.view.seed = static_cast<std::uint64_t>(config_.globals.object.seed);
     options.view.threads = plan_.threads;
@@ -105,15 +107,16 @@ class OpenScene {
     return options;
   }
 
-  [[nodiscard]] FloatImage cycles(const RenderOptions& options) {
+  [[nodiscard]] FloatImage by_blender(const RenderOptions& options) {
     const BakeSettings& settings = config_.globals;
-    auto pictures = render_cycles(session_, exported_,
-                                  {options.view.width,
-                                   options.view.height,
-                                   options.view.samples,
-                                   settings.bake.bounces,
-                                   {settings.object.seed},
-                                   flags_.materials == "full"});
+    auto pictures = render_blender(session_, exported_,
+                                   {flags_.with == "eevee" ? BlenderEngine::eevee : BlenderEngine::cycles,
+                                    options.view.width,
+                                    options.view.height,
+                                    options.view.samples,
+                                    settings.bake.bounces,
+                                    {settings.object.seed},
+                                    flags_.materials == "full"});
     return std::move(pictures.front());
   }
 
@@ -123,7 +126,7 @@ class OpenScene {
     image.layers.push_back({"", {"R", "G", "B"}, std::move(view.beauty)});
     if (!view.albedo.empty()) image.layers.push_back({"albedo", {"R", "G", "B"}, std::move(view.albedo)});
     if (!view.coverage.empty()) image.layers.push_back({"coverage", {""}, std::move(view.coverage)});
-    image.attributes["rnmbake:rendered"] = flags_.with == "cycles" ? "cycles" : decode_;
+    image.attributes["rnmbake:rendered"] = flags_.with.empty() ? decode_ : flags_.with;
     write_exr(flags_.output, image, Depth::full);
   }
 
@@ -165,8 +168,9 @@ void write_comparison(Report report, const ResolvedConfig& config, const RenderF
 }
 
 int render(ResolvedConfig config, const RenderFlags& flags) {
-  if (const auto saved = scene_with_lightmap_uvs(flags.lightmaps);
-      saved && !is_rnmscene(config.globals.scene.file)) {
+  const auto saved =
+      flags.lightmaps.empty() ? std::nullopt : scene_with_lightmap_uvs(flags.lightmaps.front());
+  if (saved && !is_rnmscene(config.globals.scene.file)) {
     log::info("opening {}, which has the UVs that were made for these lightmaps", saved->string());
     config.globals.scene.file = *saved;
   }

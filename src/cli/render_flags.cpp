@@ -38,8 +38,10 @@ bool is_png(const std::filesystem::path& file) {
 
 RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::reference, view_settings) {
   command
-      .add_option("--lightmaps", lightmaps,
-                  "output folder of rnmbake bake or rnmbake reference, or one lightmap (.exr)")
+      .add_option(
+          "--lightmaps", lightmaps,
+          "output folder of rnmbake bake, reference or convert, or one lightmap (.exr); with --compare "
+          "several: the bakes, then others that were converted from them, a picture each")
       ->type_name("DIR");
   command
       .add_option(
@@ -50,9 +52,12 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
       ->check(
           CLI::IsMember({"single", "squared", "linear", "vrad", "encoded", "truth", "none"}).description(""))
       ->type_name("single|squared|linear|vrad|encoded|truth|none");
-  command.add_option("--with", with, "let Cycles render the view instead")
-      ->check(CLI::IsMember({"cycles"}).description(""))
-      ->type_name("cycles");
+  command
+      .add_option("--with", with,
+                  "let Blender render the view instead, by Cycles or Eevee (which needs OpenGL); eevee with "
+                  "--compare: as one of the pictures")
+      ->check(CLI::IsMember({"cycles", "eevee"}).description(""))
+      ->type_name("cycles|eevee");
   command
       .add_option("--materials", materials,
                   "what Cycles shows: lambert, as the tracer (with normal maps), or the scene's own (full) "
@@ -94,7 +99,9 @@ void RenderFlags::check() {
     fail(ExitCode::usage, "--compare writes a folder, and {} is a picture; name a folder", output.string());
   if (!compare && !has_ending)
     fail(ExitCode::usage, "cannot write {}: the output must end in .exr or .png", output.string());
-  const int ways = int(!decode.empty()) + int(!with.empty()) + int(compare) + int(gbuffer);
+  const bool one_of_the_compared = compare && with == "eevee";
+  const int ways =
+      int(!decode.empty()) + int(!with.empty() && !one_of_the_compared) + int(compare) + int(gbuffer);
   if (ways > 1) {
     fail(ExitCode::usage, "--decode, --with, --gbuffer and --compare exclude each other; give one of them");
   }
@@ -105,6 +112,9 @@ void RenderFlags::check() {
          "--gbuffer takes one ray through each pixel's centre, as means of two surfaces are neither; leave "
          "--samples out");
   }
+  if (lightmaps.size() > 1 && !compare)
+    fail(ExitCode::usage,
+         "several --lightmaps are for --compare; give one, or --compare with a folder as -o");
   decode_by_header = ways == 0;
   if (decode_by_header) decode = "squared";
   const bool looks_up = compare || (!decode.empty() && decode != "truth" && decode != "none");
@@ -127,7 +137,7 @@ std::string RenderFlags::as_text() const {
   const auto add = [&](const char* flag, const std::string& value) {
     if (!value.empty()) text += fmt::format(" {} {}", flag, shell_word(value));
   };
-  add("--lightmaps", lightmaps.string());
+  for (const std::filesystem::path& path : lightmaps) add("--lightmaps", path.string());
   add("--decode", decode);
   add("--with", with);
   if (gbuffer) text += " --gbuffer";

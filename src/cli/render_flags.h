@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace rnmbake {
 
@@ -27,7 +28,8 @@ class RenderFlags {
   [[nodiscard]] std::string as_text() const;
 
   SettingsFlags settings;
-  std::filesystem::path lightmaps, output;
+  std::vector<std::filesystem::path> lightmaps;  // the bakes first, or one that was converted
+  std::filesystem::path output;
   bool decode_by_header = false;  // nothing was said: what the lightmaps are made for
   std::string decode, with, materials = "lambert", resolution, camera;
   int samples = 0;  // 0: not said

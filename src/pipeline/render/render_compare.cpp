@@ -1,30 +1,34 @@
 #include "pipeline/render/render_compare.h"
 
+#include "base/error.h"
 #include "base/log.h"
+#include "encoding/codecs/describe_codec.h"
+#include "encoding/codecs/make_codec.h"
 #include "image/metrics.h"
-#include "pipeline/render/render_cycles.h"
+#include "pipeline/render/render_blender.h"
 #include "report/finding.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace rnmbake {
 namespace {
 
-constexpr int looked_up_samples = 16;
+constexpr int looked_up_samples = 16, eevee_samples = 64;
 
 struct Decoded {
   const char* label;
   DecodeVariant variant;
+  int bytes;  // of a texel, as half floats
 };
-constexpr std::array<Decoded, 5> decodes{{{"single lightmap", DecodeVariant::single},
-                                          {"RNM, squared", DecodeVariant::squared},
-                                          {"RNM, linear", DecodeVariant::linear},
-                                          {"RNM, vrad", DecodeVariant::vrad},
-                                          {"as encoded", DecodeVariant::encoded}}};
+constexpr std::array<Decoded, 4> decodes{{{"single lightmap", DecodeVariant::single, 6},
+                                          {"RNM, squared", DecodeVariant::squared, 18},
+                                          {"RNM, linear", DecodeVariant::linear, 18},
+                                          {"RNM, vrad", DecodeVariant::vrad, 18}}};
 
 /// A picture, or the two halves of one that has noise.
 struct Halves {
@@ -66,17 +70,45 @@ Halves decode(const TraceScene& scene, const SceneLightmaps& lightmaps, DecodeVa
   return {render_view(scene, &lightmaps, {Lighting::Kind::decoded, variant}, options).beauty, {}};
 }
 
-Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewCompareOptions& options) {
+BlenderViewOptions blender_options(const BlenderSession& session, const ViewCompareOptions& options) {
   const ViewOptions& view = options.render.view;
-  const int seed = session.settings().object.seed;
-  std::vector<FloatImage> pictures = render_cycles(session, exported,
-                                                   {view.width,
-                                                    view.height,
-                                                    half_of(view.samples),
-                                                    session.settings().bake.bounces,
-                                                    {seed, seed + 1},
-                                                    options.own_materials});
+  const BakeSettings& settings = session.settings();
+  return {BlenderEngine::cycles,  view.width,           view.height, view.samples, settings.bake.bounces,
+          {settings.object.seed}, options.own_materials};
+}
+
+Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewCompareOptions& options) {
+  BlenderViewOptions halves = blender_options(session, options);
+  halves.samples = half_of(halves.samples);
+  halves.seeds.push_back(halves.seeds.front() + 1);
+  std::vector<FloatImage> pictures = render_blender(session, exported, halves);
   return {std::move(pictures[0]), std::move(pictures[1])};
+}
+
+/// Nothing, with the reason on the log, where this machine or Blender has no OpenGL.
+std::optional<Halves> eevee(BlenderSession& session, const ExportResult& exported,
+                            const ViewCompareOptions& options) {
+  BlenderViewOptions one = blender_options(session, options);
+  one.engine = BlenderEngine::eevee;
+  one.samples = std::min(eevee_samples, one.samples);
+  try {
+    return Halves{render_blender(session, exported, one).front(), {}};
+  } catch (const Error& error) {
+    log::warn("no picture 'Eevee', which needs OpenGL: {}", error.what());
+    return std::nullopt;
+  }
+}
+
+/// Lightmaps that were converted.
+SceneLightmaps converted(const std::filesystem::path& path, const DiffuseScene& scene) {
+  SceneLightmaps lightmaps(path, scene);
+  if (!lightmaps.placed().front().lightmap.metadata.is_encoded()) {
+    fail(ExitCode::usage,
+         "{} was not converted; of several --lightmaps the first are the bakes, and the others come from "
+         "rnmbake convert",
+         path.string());
+  }
+  return lightmaps;
 }
 
 ViewPicture compared(const std::string& label, const Halves& halves, const Truth& truth) {
@@ -106,6 +138,9 @@ RenderOptions render_options(const Camera& camera, int longest) {
 
 ViewComparison compare_view(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
                             const SceneLightmaps& lightmaps, const ViewCompareOptions& options) {
+  std::vector<SceneLightmaps> encoded;  // read before anything that takes long
+  for (const std::filesystem::path& path : options.encoded)
+    encoded.push_back(converted(path, exported.diffuse_scene));
   const Truth truth = trace(scene, lightmaps, options.render);
   ViewComparison view;
   view.name = camera_of(exported.diffuse_scene).name;
@@ -114,13 +149,29 @@ ViewComparison compare_view(BlenderSession& session, const ExportResult& exporte
     view.pictures.push_back(compared(options.own_materials ? "Cycles, own materials" : "Cycles",
                                      cycles(session, exported, options), truth));
   }
-  for (const auto& [label, variant] : decodes) {
+  if (options.with_eevee && exported.blends) {
+    if (const auto picture = eevee(session, exported, options)) {
+      view.pictures.push_back(
+          compared(options.own_materials ? "Eevee, own materials" : "Eevee", *picture, truth));
+    }
+  }
+  for (const auto& [label, variant, bytes] : decodes) {
     if (const auto why = lightmaps.obstacle(variant)) {
       log::warn("no picture '{}': {}", label, *why);
       continue;
     }
     view.pictures.push_back(compared(label, decode(scene, lightmaps, variant, options.render), truth));
+    view.pictures.back().bytes = bytes;
   }
+  const auto add = [&](const SceneLightmaps& shown) {
+    const LightmapMetadata& metadata = shown.placed().front().lightmap.metadata;
+    view.pictures.push_back(compared(label_of(metadata.codec),
+                                     decode(scene, shown, DecodeVariant::encoded, options.render), truth));
+    view.pictures.back().bytes =
+        stored_bytes(metadata.codec, make_codec(metadata.codec, {"", metadata.bases})->layers().size());
+  };
+  if (lightmaps.placed().front().lightmap.metadata.is_encoded()) add(lightmaps);
+  for (const SceneLightmaps& one : encoded) add(one);
   return view;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text_table.h"
+#include "encoding/codecs/describe_codec.h"
 #include "encoding/codecs/make_codec.h"
 #include "encoding/direction_sets.h"
 #include "encoding/random_light.h"
@@ -16,23 +17,6 @@
 
 namespace rnmbake {
 namespace {
-
-/// "zh3 K=2, 8 bits, mono".
-std::string label_of(const CodecOptions& codec) {
-  std::string label = codec.name;
-  if (codec.range > 0) label += fmt::format(" K={:g}", codec.range);
-  if (codec.bits > 0) label += fmt::format(", {} bits", codec.bits);
-  if (codec.mono) label += ", mono";
-  return label;
-}
-
-/// Three half floats for each plain layer; packed directions by their bits.
-int bytes_of(const CodecOptions& options, const Codec& codec) {
-  constexpr int half_colour = 6;
-  const int layers = static_cast<int>(codec.layers().size());
-  if (options.bits == 0) return layers * half_colour;
-  return half_colour + (layers - 1) * 3 * options.bits / 8;
-}
 
 std::vector<BasisSet> candidate_sets() {
   std::vector<BasisSet> sets{flat_and_rnm()};
@@ -89,7 +73,7 @@ struct StudiedCodec {
       errors.unfit.clear();
       feeds = std::move(places);
       errors.bakes = feeds.size();
-      errors.bytes = bytes_of(errors.codec, *codec);
+      errors.bytes = stored_bytes(errors.codec, codec->layers().size());
       return;
     }
   }

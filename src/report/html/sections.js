@@ -105,7 +105,8 @@ function viewsSection() {
 
 function viewOf(view, entries) {
   const own = {exposure: 0, scale: look.scale}, stage = el('div', {class: 'quiet'}, 'Loading…');
-  const label = picture => picture.label + ('relative_rmse' in picture ? ` (RMSE ${percent(picture.relative_rmse)})` : '');
+  const size = picture => 'bytes' in picture ? `, ${picture.bytes} bytes a texel` : '';
+  const label = picture => picture.label + ('relative_rmse' in picture ? ` (RMSE ${percent(picture.relative_rmse)}${size(picture)})` : '');
   const show = async () => {
     const shown = view.pictures.map((picture, i) => ({picture, entry: entries[i]})).filter(one => one.entry);
     const layers = await Promise.all(shown.map(async one =>

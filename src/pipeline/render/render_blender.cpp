@@ -1,4 +1,4 @@
-#include "pipeline/render/render_cycles.h"
+#include "pipeline/render/render_blender.h"
 
 #include "base/error.h"
 #include "base/log.h"
@@ -37,7 +37,7 @@ std::string device_of(const BakeSettings& settings) {
   return name;
 }
 
-FloatImage read_picture(const fs::path& file, const CyclesOptions& options) {
+FloatImage read_picture(const fs::path& file, const BlenderViewOptions& options) {
   LayeredImage image = read_image(file);
   if (image.layers.size() != 1 || image.layers[0].pixels.channels() != 3 ||
       image.layers[0].pixels.width() != options.width || image.layers[0].pixels.height() != options.height) {
@@ -49,12 +49,12 @@ FloatImage read_picture(const fs::path& file, const CyclesOptions& options) {
 
 }  // namespace
 
-std::vector<FloatImage> render_cycles(BlenderSession& session, const ExportResult& exported,
-                                      const CyclesOptions& options) {
+std::vector<FloatImage> render_blender(BlenderSession& session, const ExportResult& exported,
+                                       const BlenderViewOptions& options) {
   const BakeSettings& settings = session.settings();
   const Camera& camera = camera_of(exported.diffuse_scene);
   if (!exported.blends) {
-    fail(ExitCode::usage, "{}: Cycles needs the Blender scene that this was exported from; give that .blend",
+    fail(ExitCode::usage, "{}: Blender needs the scene that this was exported from; give that .blend",
          settings.scene.file.string());
   }
   const BlendPath& scene = options.own_materials ? exported.blends->own : exported.blends->shown;
@@ -64,6 +64,7 @@ std::vector<FloatImage> render_cycles(BlenderSession& session, const ExportResul
   launch.request["width"] = options.width;
   launch.request["height"] = options.height;
   launch.request["normal_maps"] = !options.own_materials;
+  launch.request["engine"] = options.engine == BlenderEngine::eevee ? "eevee" : "cycles";
   launch.request["seeds"] = options.seeds;
   launch.request["cycles"] = {{"samples", options.samples},
                               {"bounces", options.bounces},
@@ -71,7 +72,8 @@ std::vector<FloatImage> render_cycles(BlenderSession& session, const ExportResul
                               {"clamp", 0},
                               {"device", device_of(settings)}};
   const fs::path folder = launch.folder;
-  log::info("Cycles renders {} x {} pixels", options.width, options.height);
+  log::info("{} renders {} x {} pixels", options.engine == BlenderEngine::eevee ? "Eevee" : "Cycles",
+            options.width, options.height);
   const json answer = session.run(std::move(launch));
   std::vector<FloatImage> pictures;
   for (const json& name : answer.at("pictures"))
