@@ -22,7 +22,7 @@ std::string purpose_of(const Launch& launch) {
   static const std::map<std::string, std::string> purposes = {
       {"survey_entry.py", "reading the scene"},    {"export_entry.py", "writing down the scene"},
       {"lambert_entry.py", "albedo and emission"}, {"save_uvs_entry.py", "saving the scene"},
-      {"render_entry.py", "Blender renders"},       {"height_map_entry.py", "baking the heights"},
+      {"render_entry.py", "Blender renders"},      {"height_map_entry.py", "baking the heights"},
       {"node_groups_entry.py", "making nodes"},
   };
   const auto found = purposes.find(launch.entry);
