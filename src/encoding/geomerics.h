@@ -17,8 +17,9 @@ namespace rnmbake {
   const Vec3d axis = v / length;
   const double r = length / (2 * a), p = 1 + 2 * r, ambient = (1 - r) / (1 + r);
   const double cosine = std::clamp(axis.dot(normal), -1.0, 1.0), q = (1 + cosine) / 2;
-  const double power = std::pow(q, p), slope = p * std::pow(q, p - 1);
-  const double by_p = q > 0 ? power * std::log(q) : 0;
+  const double log_q = q > 0 ? std::log(q) : 0;  // q^p log q goes to 0
+  const double power = q > 0 ? std::exp(p * log_q) : 0, slope = q > 0 ? p * power / q : 0,
+               by_p = power * log_q;
   const double by_r = 2 / ((1 + r) * (1 + r));  // -dA/dr
   return {a * ambient + 2 * length * power, ambient + by_r * r - 8 * r * r * by_p,
           axis * (2 * power + 4 * r * by_p - by_r / 2) + (normal - axis * cosine) * slope};

@@ -14,9 +14,9 @@ namespace rnmbake {
 /// The linear interpolation of the four bakes (encoding/linear_light.h), in double precision.
 [[nodiscard]] FourNumbers linear_numbers(const FourBakes& bakes);
 
-/// Solves lobe(a, v, direction i) = bake i: four equations, four unknowns, by damped Gauss-Newton steps from
-/// the linear interpolation. Where they do not arrive, the least squares that were seen. a is above 0. Always
-/// finite; 0 for bakes of 0.
+/// Solves lobe(a, v, direction i) = bake i: four equations, four unknowns, by Newton's steps from the linear
+/// interpolation, or damped Gauss-Newton ones where those do not arrive. Where they do not arrive, the least
+/// squares that were seen. a is above 0. Always finite; 0 for bakes of 0.
 [[nodiscard]] FourNumbers nearest_numbers(Lobe lobe, const FourBakes& bakes);
 
 /// The same, but where the steps do not arrive the numbers of flat_kept() within |v_i| <= 2a, if the flat

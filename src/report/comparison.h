@@ -72,9 +72,9 @@ struct SplitStudy {
 struct ViewPicture {
   std::string label;   // "Cycles", "single lightmap", "RNM, squared", ...
   FloatImage picture;  // RGB, linear
-  int bytes = 0;       // of a texel of the lightmaps that it is lit by; 0: by none
   bool has_error = false;
   double rmse = 0, relative_rmse = 0, bias = 0, relative_bias = 0;  // against the view's first picture
+  int bytes = 0;  // of a texel of the lightmaps that it is lit by; 0: by none
 };
 
 /// One camera's view, rendered in several ways; the first picture is what the others are compared with.

@@ -85,6 +85,7 @@ template <typename Model, std::size_t N>
 [[nodiscard]] Minimum<N> damped_gauss_newton(const Model& model, std::array<double, N> x,
                                              const Bounds<N>& bounds) {
   constexpr int most_steps = 100;
+  constexpr double still = 1e-13;  // of the cost: a least sum above 0 is met to the root of that
   auto now = model(x);
   double cost = now.cost(), damping = 1e-3;
   if (!std::isfinite(cost)) return {x, cost};
@@ -95,9 +96,11 @@ template <typename Model, std::size_t N>
       trial[i] = std::clamp(x[i] + move[i], bounds.least[i], bounds.greatest[i]);
     const auto next = model(trial);
     if (const double trial_cost = next.cost(); trial_cost < cost) {
+      const bool is_still = cost - trial_cost <= still * cost;
       x = trial;
       now = next;
       cost = trial_cost;
+      if (is_still) break;
       damping = std::max(damping / 10, 1e-12);
     } else {
       damping *= 4;
