@@ -1,6 +1,6 @@
 """What each encoding loses, over random hemispheres and over the texels of real scenes, into docs/encodings.md.
 
-The truth of a scene is the reference's light at the normals of scenes/study.toml, traced in one pass with what the
+The truth of a scene is the reference's light at the normals of --basis-set study, traced in one pass with what the
 encodings are made from. Probes are written with --probes alone: they are other people's pictures.
 """
 
@@ -29,7 +29,7 @@ def table(lights, out):
 
 def scene_table(name, args, out):
     truth = out / f"{name}-truth"
-    run([RNMBAKE, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis", ROOT / "scenes" / "study.toml",
+    run([RNMBAKE, "-q", "reference", ROOT / "scenes" / "built" / f"{name}.blend", "--basis-set", "study",
          "--resolution", args.resolution, "--error", args.error, "--depth", "float", "-o", truth])
     return table([truth], out / name)
 

@@ -39,7 +39,9 @@ void say_what_is_left_out(const DiffuseScene& scene) {
   }
 }
 
-int reference(const ResolvedConfig& config) {
+}  // namespace
+
+int trace_reference(const ResolvedConfig& config) {
   const BakeSettings& settings = config.globals;
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
@@ -66,8 +68,6 @@ int reference(const ResolvedConfig& config) {
                 settings.output);
 }
 
-}  // namespace
-
 std::function<int()> add_reference_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "reference", "Trace what the lightmaps of a scene should hold, with standard errors");
@@ -76,7 +76,7 @@ std::function<int()> add_reference_command(CLI::App& app) {
     const auto config = flags->resolve();
     if (!config) return static_cast<int>(ExitCode::ok);
     StopRequest::install();
-    return reference(*config);
+    return trace_reference(*config);
   };
 }
 

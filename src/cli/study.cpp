@@ -4,14 +4,20 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "cli/reference.h"
+#include "config/resolve.h"
+#include "config/value.h"
 #include "pipeline/study/study_lights.h"
 #include "pipeline/study/study_report.h"
+#include "process/stop.h"
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -24,11 +30,45 @@ struct StudyFlags {
   std::uint64_t seed = 1;
   std::filesystem::path output;
   bool is_probe = false, json = false;
+  std::string resolution = "16", error = "3";  // of a scene's truth
 };
 
+bool is_scene(const std::filesystem::path& path) {
+  const std::string ending = lower_extension(path);
+  return ending == ".blend" || ending == ".glb" || ending == ".gltf" || ending == ".rnmscene";
+}
+
+/// DIR/truth, with what is traced of the scene.
+std::filesystem::path traced(const StudyFlags& flags) {
+  if (flags.output.empty())
+    fail(ExitCode::usage, "{} is a scene, which is traced first: pass -o DIR, where the truth is kept, too",
+         flags.what);
+  const std::filesystem::path truth = flags.output / "truth";
+  std::vector<SettingOverride> given;
+  const auto give = [&](const char* key, const std::string& value, const std::string& where) {
+    const Setting* setting = find_setting(key);
+    given.push_back({setting, parse_value(*setting, value, where), SettingSource::flag, where});
+  };
+  give("file", flags.what, "argument " + flags.what);
+  give("dir", truth.string(), "flag -o");
+  give("basis_set", "study", "rnmbake study");
+  give("depth", "float", "rnmbake study");
+  give("resolution", flags.resolution, "flag --resolution");
+  give("error", flags.error, "flag --error");
+  const ResolvedConfig config = resolve({}, read_environment(process_environment()), given);
+  require_scene(config, Purpose::reference);
+  StopRequest::install();
+  if (trace_reference(config) != 0)
+    fail(ExitCode::tasks_failed, "{} was not traced as a whole; see above", flags.what);
+  return truth;
+}
+
 StudyReport study(const StudyFlags& flags) {
-  Progress progress("studying", progress_for(log::is_quiet(), log::is_jsonl()));
-  const auto update = [&](double share) { progress.update(share, flags.what); };
+  std::optional<Progress> progress;  // made with its first news: a scene is traced before
+  const auto update = [&](double share) {
+    if (!progress) progress.emplace("studying", progress_for(log::is_quiet(), log::is_jsonl()));
+    progress->update(share, flags.what);
+  };
   const auto report = [](std::string title, const EncodingStudy& study) {
     return StudyReport{std::move(title), study.lights(), study.errors(), {}, {}};
   };
@@ -53,7 +93,9 @@ StudyReport study(const StudyFlags& flags) {
     if (pictures) found.pictures = sphere_pictures(probe_light(picture, 32));
     return found;
   }
-  return report(std::filesystem::path(flags.what).filename().string(), study_lightmaps(flags.what, update));
+  const std::filesystem::path lightmaps =
+      is_scene(flags.what) ? traced(flags) : std::filesystem::path(flags.what);
+  return report(std::filesystem::path(flags.what).filename().string(), study_lightmaps(lightmaps, update));
 }
 
 int run_study(const StudyFlags& flags) {
@@ -75,15 +117,20 @@ std::function<int()> add_study_command(CLI::App& app) {
       ->add_option(
           "lights", flags->what,
           "`random` hemispheres; a probe, that is a picture (.hdr) of the light around a point in "
-          "latitudes and longitudes; or lightmaps that were baked for flat, rnm0 to rnm2 and for the "
-          "directions to test at (--basis)")
+          "latitudes and longitudes; a scene (.blend, .glb, .gltf, .rnmscene), which is traced; or lightmaps "
+          "with more directions than encodings are made from (--basis-set study)")
       ->required()
-      ->type_name("random|PROBE|LIGHTMAPS");
+      ->type_name("random|PROBE|SCENE|LIGHTMAPS");
   encodings->add_flag("--probe", flags->is_probe, "it is a probe, though its name does not end in .hdr");
   encodings
       ->add_option("--count", flags->count, "random hemispheres, or surfaces in the light of a probe [400]")
       ->check(CLI::Range(1, 1000000).description(""))
       ->type_name("N");
+  encodings->add_option("--resolution", flags->resolution, "of a scene's lightmaps [16]")->type_name("N");
+  encodings
+      ->add_option("--error", flags->error,
+                   "standard error to trace a scene to, percent of each object's mean [3]")
+      ->type_name("PERCENT");
   encodings->add_option("--seed", flags->seed, "of the random hemispheres or surfaces [1]")->type_name("N");
   encodings
       ->add_option("-o,--output", flags->output,

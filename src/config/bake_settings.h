@@ -48,7 +48,7 @@ struct BakingSettings {
   enum class Recipe { receiver, flat_normal_map };
   enum class Dispatch { automatic, basis, object, scene };
   enum class Device { cpu, cuda, optix, hip, metal, oneapi };
-  enum class DirectionSet { rnm, l1, h6, sg, sh3 };
+  enum class DirectionSet { rnm, l1, h6, sg, sh3, study };
 
   /// Names out of flat, rnm0, rnm1, rnm2, or out of the basis file or set. Resolved, it is empty only where
   /// one of these is chosen and all of its vectors are wanted.

@@ -18,6 +18,8 @@ namespace rnmbake {
 ///   sh3 13   and three tilted by 80 degrees, near the horizon, which tell light from below the basis'
 ///   horizons
 ///            from that above: sh3, rnm-signed
+///   study 49 and t12_00, ...: rings of 5, 8, 11 and 12 normals tilted by 12.5, 35, 52 and 75 degrees, at
+///            which encodings are tested (pipeline/study)
 /// Condition numbers of the fits (encoding/fit/least_squares.h): sh2 9.6 on l1, h4 2.5 on l1, h6 2.9 on h6,
 /// sg 19 on sg, sh3 28 on sh3; tests hold them. Nothing where there is no such set.
 [[nodiscard]] std::optional<BasisSet> direction_set(std::string_view name);

@@ -1,8 +1,11 @@
 #include "encoding/basis_set.h"
 
 #include "base/error.h"
+#include "encoding/direction_sets.h"
 
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +34,17 @@ TEST(BasisSet, RnmIsSound) {
   const BasisSet with_flat = flat_and_rnm();
   EXPECT_TRUE(check_basis(with_flat).empty());
   EXPECT_TRUE(holds_rnm(with_flat));
+}
+
+TEST(BasisSet, StudySetHoldsWhatFeedsAndNormalsOfFourTilts) {
+  const BasisSet study = direction_set("study").value(), feeding = direction_set("sh3").value();
+  EXPECT_TRUE(check_basis(study).empty());  // sound, and no two of them near each other
+  for (const BasisDirection& basis : feeding.directions) EXPECT_TRUE(place_of(study, basis)) << basis.name;
+  std::map<int, int> tilts;  // half degrees -> normals
+  for (const BasisDirection& basis : study.directions)
+    if (!place_of(feeding, basis)) ++tilts[int(std::lround(2 * std::acos(basis.direction.z) * 180 / pi))];
+  EXPECT_EQ(tilts, (std::map<int, int>{{25, 5}, {70, 8}, {104, 11}, {150, 12}}));
+  EXPECT_EQ(name_of_set(study.directions), "study");
 }
 
 TEST(BasisSet, HoldsRnmNeedsAllThreeInTheirPlaces) {

@@ -54,7 +54,11 @@ BasisDirection basis_of(const std::filesystem::path& file, const toml::node& nod
 BasisSet set_of(BakingSettings::DirectionSet chosen) {
   using enum BakingSettings::DirectionSet;
   if (chosen == rnm) return rnm_set();
-  const char* name = chosen == l1 ? "l1" : chosen == h6 ? "h6" : chosen == sg ? "sg" : "sh3";
+  const char* name = chosen == l1    ? "l1"
+                     : chosen == h6  ? "h6"
+                     : chosen == sg  ? "sg"
+                     : chosen == sh3 ? "sh3"
+                                     : "study";
   return direction_set(name).value();
 }
 

@@ -37,11 +37,11 @@ FedAndTested divided(const LightmapMetadata& metadata, const std::string& file) 
   const bool feeds = std::ranges::all_of(
       least.directions, [&](const BasisDirection& basis) { return place_of(all.fed, basis).has_value(); });
   if (!feeds || all.tested.empty()) {
-    fail(ExitCode::unsupported,
-         "{} has no bakes to test encodings at: needed are flat, rnm0 to rnm2 and other directions; bake "
-         "with --basis "
-         "(docs/study.md)",
-         file);
+    fail(
+        ExitCode::unsupported,
+        "{} has no bakes to test encodings at: needed are flat, rnm0 to rnm2 and other directions; bake with "
+        "--basis-set study (docs/study.md)",
+        file);
   }
   return all;
 }
