@@ -49,7 +49,7 @@ def report(data):
               mebibytes(row["peak"])] for row in data["rows"]]
     return table(["what", "wall s", "CPU s", "speed beside read and write", "MiB"], lines) + (
         f"\n\n{SIDE} x {SIDE} texels, flat + 3 and coverage, half, zip; oiiotool reads and writes the same file. The goal is 0.8 "
-        "for all. `convert` works on 64 rows at a time, whatever the height; `decode` reads the whole file. "
+        "for all. `convert` and `decode` of one normal work on 64 rows at a time, whatever the height. "
         "Refits (zh3, geomerics, packed forms) solve four equations for each colour of a texel, one after the other: Newton's "
         "steps and an end where the error stands still took a third off the processor time of damped Gauss-Newton alone, and "
         "are not enough.")

@@ -4,10 +4,12 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "encoding/basis_set.h"
-#include "image/display_png.h"
+#include "image/layer_rows.h"
 #include "image/layered_exr.h"
 #include "lightmap/decode.h"
 #include "lightmap/layout.h"
+#include "pipeline/decode/decode_rows.h"
+#include "pipeline/decode/lit_writer.h"
 #include "pipeline/ssbump/decode_directions.h"
 #include "pipeline/ssbump/decode_ssbump.h"
 
@@ -92,32 +94,50 @@ void check_fit(const DecodeOptions& options, const LightmapMetadata& metadata) {
   }
 }
 
-FloatImage decoded(const DecodeOptions& options, Lightmap lightmap) {
-  const DecodeVariant variant = variant_of(options);
-  if (!options.ssbump.empty()) {
-    const SsbumpHints hints{scale_named(options.ssbump_scale), handed_named(options.ssbump_handed), {}};
-    return decode_ssbump(std::move(lightmap), read_ssbump(options.ssbump, hints), variant);
-  }
-  if (options.normal_map.empty()) {
-    const auto& n = options.normal_vector;
-    return decode(std::move(lightmap), Vec3(n[0], n[1], n[2]), green_of(options), variant);
-  }
-  const LayeredImage picture = read_image(options.normal_map);
-  const NormalPicture normals{normals_of(picture, options.normal_map.string()), green_of(options)};
-  return decode(std::move(lightmap), normals, variant);
+LitWriter writer_for(const DecodeOptions& options, int width, int height) {
+  const std::string variant = options.ssbump.empty() ? options.variant : "ssbump, " + options.variant;
+  return {options.output, width, height, variant, options.exposure};
 }
 
 void write(const DecodeOptions& options, FloatImage&& picture) {
-  if (lower_extension(options.output) == ".png")
-    return write_display_png(options.output, picture, options.exposure);
-  const float gain = std::exp2(options.exposure);
-  for (float& value : picture.data()) value *= gain;
-  LayeredImage image;
-  image.layers.push_back({"", {"R", "G", "B"}, std::move(picture)});
-  image.attributes["rnmbake:decoded"] =
-      options.ssbump.empty() ? options.variant : "ssbump, " + options.variant;
-  image.attributes["rnmbake:exposure"] = options.exposure;
-  write_exr(options.output, image, Depth::full);
+  LitWriter writer = writer_for(options, picture.width(), picture.height());
+  const int height = picture.height();
+  writer.write(0, height, std::move(picture));
+  writer.commit();
+}
+
+/// The lightmap as a whole, for pictures of another size than its own.
+Lightmap whole_lightmap(const DecodeOptions& options, const LightmapMetadata& metadata) {
+  return lightmap_of(read_image(options.lightmap), metadata);
+}
+
+void decode_under_ssbump(const DecodeOptions& options, const LightmapMetadata& metadata) {
+  const SsbumpHints hints{scale_named(options.ssbump_scale), handed_named(options.ssbump_handed), {}};
+  const SsbumpPicture weights = read_ssbump(options.ssbump, hints);
+  write(options, decode_ssbump(whole_lightmap(options, metadata), weights, variant_of(options)));
+}
+
+void decode_under_normals(const DecodeOptions& options, LayerRows& lightmap,
+                          const LightmapMetadata& metadata) {
+  const int width = lightmap.facts().width, height = lightmap.facts().height;
+  std::optional<NormalRows> normals;
+  if (!options.normal_map.empty()) normals.emplace(options.normal_map);
+  if (normals && (normals->width() != width || normals->height() != height)) {
+    const LayeredImage picture = read_image(options.normal_map);
+    const NormalPicture whole{normals_of(picture, options.normal_map.string()), green_of(options)};
+    return write(options, decode(whole_lightmap(options, metadata), whole, variant_of(options)));
+  }
+  LitWriter writer = writer_for(options, width, height);
+  const TakeRows take = [&](int begin, int end, FloatImage&& lit) {
+    writer.write(begin, end, std::move(lit));
+  };
+  if (normals) {
+    decode_rows(lightmap, metadata, *normals, green_of(options), variant_of(options), take);
+  } else {
+    const auto& n = options.normal_vector;
+    decode_rows(lightmap, metadata, Vec3(n[0], n[1], n[2]), green_of(options), variant_of(options), take);
+  }
+  writer.commit();
 }
 
 void check_vector(const std::vector<float>& n) {
@@ -166,17 +186,21 @@ std::optional<DirectionMap> direction_map_of(const DecodeOptions& options) {
 int run_decode(DecodeOptions options) {
   check_options(options);
   const auto directions = direction_map_of(options);
-  const LayeredImage image = read_image(options.lightmap);
-  const LightmapMetadata metadata = metadata_of(options, image);
+  LayerRows lightmap(options.lightmap);
+  const LightmapMetadata metadata = metadata_of(options, lightmap.header());
   if (directions) {
     options.variant = directions->metadata.set.name;
-    write(options, decode_directions(lightmap_of(image, metadata), *directions));
+    write(options, decode_directions(whole_lightmap(options, metadata), *directions));
     return static_cast<int>(ExitCode::ok);
   }
   if (options.variant.empty() && options.ssbump.empty()) options.variant = name_of(natural_variant(metadata));
   if (options.variant.empty()) options.variant = name_of(DecodeVariant::squared);
   check_fit(options, metadata);
-  write(options, decoded(options, lightmap_of(image, metadata)));
+  if (options.ssbump.empty()) {
+    decode_under_normals(options, lightmap, metadata);
+  } else {
+    decode_under_ssbump(options, metadata);
+  }
   return static_cast<int>(ExitCode::ok);
 }
 

@@ -63,15 +63,6 @@ std::optional<Candidate> candidate_in(const Layer& layer, bool two_channel) {
   return std::nullopt;
 }
 
-bool has_negative(const VectorSource& source) {
-  const FloatImage& pixels = source.layer->pixels;
-  for (std::size_t at = 0; at < pixels.data().size(); at += static_cast<std::size_t>(pixels.channels())) {
-    if (std::ranges::any_of(source.places, [&](int place) { return pixels.data()[at + place] < 0; }))
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::vector<ChannelGroup> channel_groups(const std::vector<std::string>& names) {
@@ -172,8 +163,16 @@ VectorSource vector_source(const LayeredImage& picture, const std::string& file,
          "{} may hold several normal maps: {}; save the one that is meant as a picture of its own", file,
          fmt::join(rivals, ", "));
   }
-  best->source.is_signed |= has_negative(best->source);
+  best->source.is_signed |= has_negative(best->source.layer->pixels, best->source);
   return best->source;
+}
+
+bool has_negative(const FloatImage& pixels, const VectorSource& source) {
+  for (std::size_t at = 0; at < pixels.data().size(); at += static_cast<std::size_t>(pixels.channels())) {
+    if (std::ranges::any_of(source.places, [&](int place) { return pixels.data()[at + place] < 0; }))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace rnmbake

@@ -50,4 +50,7 @@ struct VectorSource {
 [[nodiscard]] VectorSource vector_source(const LayeredImage& picture, const std::string& file,
                                          bool two_channel = false);
 
+/// A value below 0 at the source's places in these pixels of its layer: what makes 0 to 1 signed.
+[[nodiscard]] bool has_negative(const FloatImage& pixels, const VectorSource& source);
+
 }  // namespace rnmbake

@@ -4,7 +4,6 @@
 #include "encoding/codecs/make_codec.h"
 #include "encoding/flip_green.h"
 #include "encoding/rnm.h"
-#include "image/channels.h"
 #include "image/sample.h"
 #include "lightmap/frames.h"
 #include "lightmap/normalize.h"
@@ -117,7 +116,10 @@ DecodeVariant natural_variant(const LightmapMetadata& metadata) {
 
 FloatImage normals_of(const LayeredImage& picture, const std::string& file) {
   const VectorSource source = vector_source(picture, file);
-  const FloatImage& pixels = source.layer->pixels;
+  return normals_of(source.layer->pixels, source);
+}
+
+FloatImage normals_of(const FloatImage& pixels, const VectorSource& source) {
   FloatImage normals(pixels.width(), pixels.height(), 3);
   for (int y = 0; y < pixels.height(); ++y) {
     for (int x = 0; x < pixels.width(); ++x) {

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "encoding/codec.h"
 #include "encoding/encodings.h"
+#include "image/channels.h"
 #include "image/float_image.h"
 #include "image/layered_exr.h"
 #include "image/sample.h"
@@ -60,6 +61,9 @@ struct NormalPicture {
 /// a vector of length 0 becomes (0, 0, 1). Throws Error(invalid_input), naming `file`, where there is no such
 /// layer.
 [[nodiscard]] FloatImage normals_of(const LayeredImage& picture, const std::string& file);
+
+/// The same of some rows: `pixels` of the source's layer.
+[[nodiscard]] FloatImage normals_of(const FloatImage& pixels, const VectorSource& source);
 
 /// Why the numbers of this file do not mean what the variant takes them for; nothing where they do.
 [[nodiscard]] std::optional<std::string> decode_obstacle(const LightmapMetadata& metadata,

@@ -4,18 +4,18 @@
 #include "encoding/encodings.h"
 #include "lightmap/layout.h"
 
-#include <cstddef>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace rnmbake {
 namespace {
 
 /// Alpha, which some other program may have added, is no part of a lightmap.
-ChannelGroup without_alpha(ChannelGroup group) {
-  if (places_of(group.channels, "RGB").empty()) return group;
+void drop_alpha(ChannelGroup& group) {
+  if (places_of(group.channels, "RGB").empty()) return;
   group.channels.resize(3);
   group.index.resize(3);
-  return group;
 }
 
 /// The layer that a file of a split lightmap says it holds (lightmap/layout.h).
@@ -38,9 +38,8 @@ LightmapRows::LightmapRows(const LightmapPlace& place) : file_(place.files.front
 
 void LightmapRows::open(const std::filesystem::path& path) {
   const bool is_first = files_.empty();
-  File& file = files_.emplace_back();
-  file.reader = std::make_unique<PictureReader>(path);
-  const PictureFacts& facts = file.reader->facts();
+  LayerRows& file = files_.emplace_back(path);
+  const PictureFacts& facts = file.facts();
   if (is_first) {
     width_ = facts.width;
     height_ = facts.height;
@@ -48,29 +47,17 @@ void LightmapRows::open(const std::filesystem::path& path) {
     fail(ExitCode::invalid_input, "{} and {} belong to one object but differ in size; bake it again", file_,
          path.string());
   }
-  for (const ChannelGroup& group : channel_groups(facts.channels))
-    file.layers.push_back(without_alpha(in_usual_order(group)));
-  name_split_layer(facts, file.layers);
-  for (const ChannelGroup& layer : file.layers) header_.layers.push_back({layer.layer, layer.channels, {}});
-  auto attributes = facts.attributes;
-  header_.attributes.merge(std::move(attributes));
+  for (ChannelGroup& layer : file.layers()) drop_alpha(layer);
+  name_split_layer(facts, file.layers());
+  LayeredImage header = file.header();
+  std::ranges::move(header.layers, std::back_inserter(header_.layers));
+  header_.attributes.merge(std::move(header.attributes));
 }
 
 LayeredImage LightmapRows::read(int begin, int end) {
   LayeredImage rows;
-  std::vector<float> values;
-  for (File& file : files_) {
-    const std::size_t channels = file.reader->facts().channels.size();
-    values.resize(static_cast<std::size_t>(end - begin) * width_ * channels);
-    file.reader->read(begin, end, 0, static_cast<int>(channels), values);
-    for (const ChannelGroup& layer : file.layers) {
-      FloatImage pixels(width_, end - begin, static_cast<int>(layer.channels.size()));
-      float* to = pixels.data().data();
-      for (const float* from = values.data(); from != values.data() + values.size(); from += channels)
-        for (const int place : layer.index) *to++ = from[place];
-      rows.layers.push_back({layer.layer, layer.channels, std::move(pixels)});
-    }
-  }
+  for (LayerRows& file : files_)
+    std::ranges::move(file.read(begin, end).layers, std::back_inserter(rows.layers));
   return rows;
 }
 

@@ -2,13 +2,12 @@
 // time.
 #pragma once
 
-#include "image/channels.h"
+#include "image/layer_rows.h"
 #include "image/layered_exr.h"
-#include "image/picture_rows.h"
 #include "lightmap/metadata.h"
 #include "pipeline/lightmaps/lightmap_place.h"
 
-#include <memory>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace rnmbake {
 
 class LightmapRows {
  public:
-  static constexpr int band = 64;  // rows to read at once: whole zip blocks, and little memory
+  static constexpr int band = LayerRows::band;
 
   /// Throws as load_lightmap().
   explicit LightmapRows(const LightmapPlace& place);
@@ -34,15 +33,10 @@ class LightmapRows {
   [[nodiscard]] LayeredImage read(int begin, int end);
 
  private:
-  struct File {
-    std::unique_ptr<PictureReader> reader;
-    std::vector<ChannelGroup> layers;  // colours without alpha
-  };
-
   void open(const std::filesystem::path& path);
 
   std::string file_;
-  std::vector<File> files_;
+  std::vector<LayerRows> files_;  // colours without alpha
   LayeredImage header_;
   LightmapMetadata metadata_;
   int width_ = 0, height_ = 0;

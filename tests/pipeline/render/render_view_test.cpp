@@ -65,10 +65,10 @@ class Studio {
   TraceScene traced_;
 };
 
-struct Mean {
+struct ViewMean {
   double value = 0, error = 0;  // standard error, from how the values scatter
 };
-Mean mean_of(const FloatImage& image) {
+ViewMean mean_of(const FloatImage& image) {
   const auto count = double(image.texels());
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < image.texels(); ++i) sum += image.data()[3 * i];
@@ -108,7 +108,7 @@ TEST(RenderView, UnderASkySingleTruthAndAlbedoAreOne) {
   const double noise = noisiest(read_image(studio.folder.path() / "floor.exr").find("flat_stderr")->pixels);
   EXPECT_NEAR(mean_of(studio.view("single").beauty).value, 0.5, 4 * 0.5 * noise + 1e-6);
   EXPECT_NEAR(mean_of(studio.view("vrad").beauty).value, 0.5, 4 * 0.5 * noise + 1e-6);
-  const Mean truth = mean_of(studio.view("truth", 64).beauty);
+  const ViewMean truth = mean_of(studio.view("truth", 64).beauty);
   EXPECT_NEAR(truth.value, 0.5, 4 * truth.error + 1e-6);
   expect_everywhere(studio.view("none").beauty, 0.5);
 }
