@@ -144,9 +144,10 @@ class Measurement {
 
   void directions(const BasisSet& set, WeightSign sign) const {
     FloatImage weights(field_.width(), rows(), static_cast<int>(set.directions.size()));
+    const DirectionRows directions(field_, {set, sign, arguments_.rays, 0, 0});
     for (int row = 0; row < rows(); ++row) {
       const int y = row * every_row;
-      const FloatImage one = direction_rows(field_, {set, sign, arguments_.rays, 0, 0}, y, y + 1);
+      const FloatImage one = directions.rows(y, y + 1);
       std::ranges::copy(one.data(), weights.texel(0, row).data());
     }
     const Light light = [&](int x, int y, const Vec3& sun) {

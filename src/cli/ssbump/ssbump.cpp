@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "cli/ssbump/ssbump_flags.h"
 #include "cli/ssbump/ssbump_tools.h"
+#include "cli/ssbump/weight_range_json.h"
 #include "pipeline/ssbump/ssbump_mesh_files.h"
 #include "process/stop.h"
 
@@ -31,12 +32,6 @@ constexpr const char* examples =
     "  rnmbake ssbump info bricks_ssbump.png            what a map holds\n"
     "  rnmbake ssbump compress-check bricks_ssbump.png  what BC1, RGB565 and BC7 would do to it";
 
-constexpr std::array channel_names{"right", "upper left", "lower left", "up", "ambient"};
-
-nlohmann::ordered_json json_of(const WeightRange& range) {
-  return {{"least", range.least}, {"mean", range.mean}, {"greatest", range.greatest}};
-}
-
 nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunSummary& summary) {
   nlohmann::ordered_json json;
   json["output"] = options.output.file.string();
@@ -60,7 +55,7 @@ nlohmann::ordered_json json_of(const SsbumpRunOptions& options, const SsbumpRunS
   json["handedness"] = name_of(options.output.encoding.handed);
   json["alpha"] = name_of(options.output.encoding.alpha);
   for (std::size_t c = 0; c < summary.ranges.size(); ++c) {
-    json["weights"][channel_names.at(c)] = json_of(summary.ranges[c]);
+    json["weights"][ssbump_channel_names.at(c)] = json_of(summary.ranges[c]);
   }
   for (const auto& [step, seconds] : summary.seconds) json["seconds"][step] = seconds;
   return json;

@@ -3,8 +3,10 @@
 #include "base/text.h"
 #include "cli/ssbump/ssbump_tool_flags.h"
 #include "cli/ssbump/ssbump_tools.h"
+#include "cli/ssbump/weight_range_json.h"
 #include "ssbump/map/direction_map.h"
 #include "ssbump/map/normals.h"
+#include "ssbump/map/weight_ranges.h"
 #include "ssbump/map/weights.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -26,27 +29,33 @@ struct InfoOptions {
   bool json = false;
 };
 
-struct ChannelStats {
-  const char* name;
-  double least, mean, greatest;
+struct NamedRange {
+  std::string name;
+  WeightRange range;
 };
 
-std::vector<ChannelStats> stats_of(const SsbumpPicture& picture) {
-  constexpr std::array names{"right", "upper left", "lower left", "up", "ambient"};
-  std::vector<ChannelStats> all;
-  for (std::size_t c = 0; c < names.size(); ++c) {
+std::vector<WeightRange> ranges_of(const FloatImage& weights) {
+  WeightRanges ranges;
+  ranges.add(weights);
+  return ranges.ranges();
+}
+
+std::vector<NamedRange> named_ranges(const SsbumpPicture& picture) {
+  const std::vector<WeightRange> ranges = ranges_of(picture.weights);
+  std::vector<NamedRange> all;
+  for (std::size_t c = 0; c < ranges.size(); ++c) {
     if (c == SsbumpWeights::up && picture.metadata.alpha != SsbumpAlpha::up) continue;
     if (c == SsbumpWeights::ambient && picture.metadata.alpha != SsbumpAlpha::ao) continue;
-    ChannelStats stats{names[c], INFINITY, 0, -INFINITY};
-    const auto& data = picture.weights.data();
-    for (std::size_t at = c; at < data.size(); at += names.size()) {
-      stats.least = std::min<double>(stats.least, data[at]);
-      stats.greatest = std::max<double>(stats.greatest, data[at]);
-      stats.mean += data[at];
-    }
-    stats.mean /= static_cast<double>(picture.weights.texels());
-    all.push_back(stats);
+    all.push_back({ssbump_channel_names[c], ranges[c]});
   }
+  return all;
+}
+
+std::vector<NamedRange> named_ranges(const DirectionMap& map) {
+  const std::vector<WeightRange> ranges = ranges_of(map.weights);
+  std::vector<NamedRange> all;
+  for (std::size_t c = 0; c < ranges.size(); ++c)
+    all.push_back({map.metadata.set.directions[c].name, ranges[c]});
   return all;
 }
 
@@ -77,9 +86,7 @@ void print_json(const InfoOptions& options, const SsbumpPicture& picture) {
   if (picture.knows_itself) json["power"] = metadata.power;
   if (picture.knows_itself) json["method"] = metadata.method;
   if (picture.knows_itself) json["settings"] = metadata.settings;
-  for (const ChannelStats& stats : stats_of(picture))
-    json["weights"][stats.name] = {
-        {"least", stats.least}, {"mean", stats.mean}, {"greatest", stats.greatest}};
+  for (const auto& [name, range] : named_ranges(picture)) json["weights"][name] = json_of(range);
   const auto [mean, most] = tilt_of(picture.weights);
   json["bent_normal_tilt"] = {{"mean", mean}, {"greatest", most}};
   std::cout << json.dump(2) << '\n';
@@ -103,28 +110,11 @@ void print(const InfoOptions& options, const SsbumpPicture& picture) {
   row("settings", metadata.settings);
   std::cout << fmt::format("\n{:<12} {:>8} {:>8} {:>8}   (1 is open)\n", "weight", "least", "mean",
                            "greatest");
-  for (const ChannelStats& stats : stats_of(picture))
-    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}\n", stats.name, stats.least, stats.mean,
-                             stats.greatest);
+  for (const auto& [name, range] : named_ranges(picture))
+    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}\n", name, range.least, range.mean,
+                             range.greatest);
   const auto [mean, most] = tilt_of(picture.weights);
   std::cout << fmt::format("\nBent normals lean {:.1f} degrees on average, {:.1f} at most.\n", mean, most);
-}
-
-std::vector<ChannelStats> stats_of(const DirectionMap& map) {
-  std::vector<ChannelStats> all;
-  for (const BasisDirection& basis : map.metadata.set.directions) {
-    ChannelStats stats{basis.name.c_str(), INFINITY, 0, -INFINITY};
-    const auto& data = map.weights.data();
-    const auto channels = static_cast<std::size_t>(map.weights.channels());
-    for (std::size_t at = all.size(); at < data.size(); at += channels) {
-      stats.least = std::min<double>(stats.least, data[at]);
-      stats.greatest = std::max<double>(stats.greatest, data[at]);
-      stats.mean += double{data[at]};
-    }
-    stats.mean /= static_cast<double>(map.weights.texels());
-    all.push_back(stats);
-  }
-  return all;
 }
 
 void print_directions_json(const InfoOptions& options, const DirectionMap& map) {
@@ -139,9 +129,7 @@ void print_directions_json(const InfoOptions& options, const DirectionMap& map) 
   json["fit"] = map.metadata.fit;
   json["method"] = map.metadata.method;
   json["settings"] = map.metadata.settings;
-  for (const ChannelStats& stats : stats_of(map))
-    json["weights"][stats.name] = {
-        {"least", stats.least}, {"mean", stats.mean}, {"greatest", stats.greatest}};
+  for (const auto& [name, range] : named_ranges(map)) json["weights"][name] = json_of(range);
   std::cout << json.dump(2) << '\n';
 }
 
@@ -158,11 +146,12 @@ void print_directions(const InfoOptions& options, const DirectionMap& map) {
   row("method", map.metadata.method);
   row("settings", map.metadata.settings);
   std::cout << fmt::format("\n{:<12} {:>8} {:>8} {:>8}   direction\n", "weight", "least", "mean", "greatest");
-  const auto all = stats_of(map);
+  const auto all = named_ranges(map);
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [name, range] = all[i];
     const Vec3& v = map.metadata.set.directions[i].direction;
-    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}   {:.3f} {:.3f} {:.3f}\n", all[i].name,
-                             all[i].least, all[i].mean, all[i].greatest, v.x, v.y, v.z);
+    std::cout << fmt::format("{:<12} {:>8.4f} {:>8.4f} {:>8.4f}   {:.3f} {:.3f} {:.3f}\n", name, range.least,
+                             range.mean, range.greatest, v.x, v.y, v.z);
   }
 }
 

@@ -4,8 +4,7 @@
 
 #include "image/picture_rows.h"
 #include "ssbump/directions/direction_rows.h"
-#include "ssbump/map/direction_map.h"
-#include "ssbump/map/files.h"
+#include "ssbump/map/weight_ranges.h"
 
 #include <functional>
 #include <vector>

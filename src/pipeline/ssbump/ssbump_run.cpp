@@ -8,6 +8,7 @@
 #include "process/stop.h"
 #include "ssbump/generate/albedo.h"
 #include "ssbump/heights/bilateral.h"
+#include "ssbump/map/direction_map.h"
 #include "ssbump/map/normals.h"
 
 #include <algorithm>

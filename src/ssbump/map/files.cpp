@@ -57,34 +57,13 @@ Storage storage_of(const std::filesystem::path& file, SsbumpBits bits) {
 SsbumpFile::SsbumpFile(const SsbumpOutput& output, SsbumpMetadata metadata, int width, int height)
     : output_(output),
       storage_(storage_of(output.file, output.bits)),
-      writer_(output.file, form_of(output, storage_, std::move(metadata), width, height)),
-      ranges_(SsbumpWeights::channels) {}
+      writer_(output.file, form_of(output, storage_, std::move(metadata), width, height)) {}
 
 void SsbumpFile::write(int first_row, const FloatImage& weights) {
-  take_stock(weights);
+  ranges_.add(weights);
   FloatImage stored = output_.ao_only ? ambient_of(weights) : encode(weights, output_.encoding);
   if (output_.dither && storage_ == Storage::u8) dither(stored, storage_, output_.seed, first_row);
   writer_.write(first_row, first_row + stored.height(), stored.data());
-}
-
-void SsbumpFile::take_stock(const FloatImage& weights) {
-  const auto& data = weights.data();
-  for (std::size_t c = 0; c < ranges_.size(); ++c) {
-    WeightRange& range = ranges_[c];
-    if (texels_ == 0 && !data.empty()) range.least = range.greatest = data[c];
-    for (std::size_t at = c; at < data.size(); at += ranges_.size()) {
-      range.least = std::min(range.least, data[at]);
-      range.greatest = std::max(range.greatest, data[at]);
-      range.mean += data[at];
-    }
-  }
-  texels_ += weights.texels();
-}
-
-std::vector<WeightRange> SsbumpFile::ranges() const {
-  std::vector<WeightRange> ranges = ranges_;
-  for (WeightRange& range : ranges) range.mean /= static_cast<double>(std::max<std::size_t>(texels_, 1));
-  return ranges;
 }
 
 PictureForm normal_map_form(int width, int height, Storage storage, bool y_down) {

@@ -5,6 +5,7 @@
 #include "image/picture_rows.h"
 #include "ssbump/map/encode.h"
 #include "ssbump/map/metadata.h"
+#include "ssbump/map/weight_ranges.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,12 +29,6 @@ struct SsbumpOutput {
 /// where the ending cannot hold them.
 [[nodiscard]] Storage storage_of(const std::filesystem::path& file, SsbumpBits bits);
 
-/// Least, greatest and mean of what was stored of each channel, as weights: 1 is open.
-struct WeightRange {
-  float least = 0, greatest = 0;
-  double mean = 0;
-};
-
 /// Takes weights (SsbumpWeights: five channels) in rows from top to bottom.
 class SsbumpFile {
  public:
@@ -47,16 +42,13 @@ class SsbumpFile {
   void commit() { writer_.commit(); }
 
   /// Ranges of the five channels over the rows so far.
-  [[nodiscard]] std::vector<WeightRange> ranges() const;
+  [[nodiscard]] std::vector<WeightRange> ranges() const { return ranges_.ranges(); }
 
  private:
-  void take_stock(const FloatImage& weights);
-
   SsbumpOutput output_;
   Storage storage_;
   PictureWriter writer_;
-  std::vector<WeightRange> ranges_;  // `mean` is the sum until it is asked for
-  std::size_t texels_ = 0;
+  WeightRanges ranges_;
 };
 
 /// Packs rows of unit normals into a normal map's file; 16 bits are not dithered, 8 neither, as that would

@@ -29,7 +29,7 @@ Lightmap under_sun(const BasisSet& set, const Vec3& sun, Green green = Green::y_
 
 DirectionMap bumps_of(const BasisSet& set) {
   const HeightField field = rough_field(8, 8, WrapMode::wrap, 4);
-  return {{set, "free", "trace", ""}, direction_rows(field, {set}, 0, 8), "float"};
+  return {{set, "free", "trace", ""}, DirectionRows(field, {set}).rows(0, 8), "float"};
 }
 
 std::string refusal_of(Lightmap lightmap, const DirectionMap& map) {

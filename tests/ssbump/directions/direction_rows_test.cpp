@@ -21,7 +21,7 @@ double under_even_sky(std::span<const float> weights, const BasisSet& set) {
 TEST(DirectionRows, AFlatMapIsTheFlatLightmapAlone) {
   const HeightField field = field_of(4, 4, WrapMode::wrap, [](int, int) { return 3; });
   const BasisSet set = *direction_set("h6");
-  const FloatImage weights = direction_rows(field, {set}, 0, 4);
+  const FloatImage weights = DirectionRows(field, {set}).rows(0, 4);
   for (std::size_t i = 0; i < weights.data().size(); ++i)
     EXPECT_NEAR(weights.data()[i], i % set.directions.size() == 0 ? 1 : 0, 1e-4);
 }
@@ -29,7 +29,7 @@ TEST(DirectionRows, AFlatMapIsTheFlatLightmapAlone) {
 TEST(DirectionRows, AWallTakesHalfOfAnEvenSkyAndAllOfASunBehindIt) {
   const HeightField step = field_of(8, 3, WrapMode::none, [](int x, int) { return x < 4 ? 0 : 4000; });
   const BasisSet set = *direction_set("sh3");
-  const FloatImage weights = direction_rows(step, {set, WeightSign::free, 4096}, 1, 2);
+  const FloatImage weights = DirectionRows(step, {set, WeightSign::free, 4096}).rows(1, 2);
   // The texel before the wall has a normal of its own, which leans away; the next but one is flat.
   const auto texel = weights.texel(1, 0);
   EXPECT_NEAR(under_even_sky(texel, set), 0.5, 0.01);
@@ -47,7 +47,7 @@ TEST(DirectionRows, AWallTakesHalfOfAnEvenSkyAndAllOfASunBehindIt) {
 TEST(DirectionRows, AgreesWithBruteForce) {
   const HeightField field = rough_field(32, 32, WrapMode::wrap, 8);
   const BasisSet set = *direction_set("l1");
-  const FloatImage weights = direction_rows(field, {set, WeightSign::free, 4096}, 5, 6);
+  const FloatImage weights = DirectionRows(field, {set, WeightSign::free, 4096}).rows(5, 6);
   const FloatImage normals = height_normals(field, 5, 6);
   const HeightRays surface(field);
   std::vector<Vec3> directions;
@@ -77,13 +77,13 @@ TEST(DirectionRows, AgreesWithBruteForce) {
 TEST(DirectionRows, DependsOnTheSeedAloneAndRefusesTooFewRays) {
   const HeightField field = rough_field(16, 16, WrapMode::wrap, 4);
   DirectionOptions options{*direction_set("h6")};
-  const FloatImage all = direction_rows(field, options, 0, 16);
+  const FloatImage all = DirectionRows(field, options).rows(0, 16);
   options.threads = 1;
-  const FloatImage lower = direction_rows(field, options, 8, 16);
+  const FloatImage lower = DirectionRows(field, options).rows(8, 16);
   for (int x = 0; x < 16; ++x)
     for (std::size_t c = 0; c < 10; ++c) EXPECT_EQ(all.texel(x, 11)[c], lower.texel(x, 3)[c]);
   options.rays = 79;
-  EXPECT_THROW((void)direction_rows(field, options, 0, 1), Error);
+  EXPECT_THROW((void)DirectionRows(field, options).rows(0, 1), Error);
 }
 
 }  // namespace
