@@ -50,4 +50,9 @@ class FloatImage {
   return {texel[0], texel[1], texel[2]};
 }
 
+inline void set_vec3(FloatImage& image, int x, int y, const Vec3& value) {
+  const auto texel = image.texel(x, y);
+  for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = value[c];
+}
+
 }  // namespace rnmbake

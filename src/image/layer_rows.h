@@ -6,6 +6,7 @@
 #include "image/layered_exr.h"
 #include "image/picture_rows.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -37,5 +38,12 @@ class LayerRows {
   std::vector<ChannelGroup> layers_;
   std::vector<float> values_;  // of the rows at hand, as the file has them
 };
+
+/// Calls do_band(begin, end) for rows from top to bottom.
+template <typename DoBand>
+void each_band(int height, const DoBand& do_band) {
+  for (int begin = 0; begin < height; begin += LayerRows::band)
+    do_band(begin, std::min(begin + LayerRows::band, height));
+}
 
 }  // namespace rnmbake

@@ -60,4 +60,10 @@ void sample(const FloatImage& image, const std::array<Tap, 4>& taps, std::span<f
   }
 }
 
+Vec3 sampled_vec3(const FloatImage& image, const std::array<Tap, 4>& taps) {
+  std::array<float, 3> values{};
+  sample(image, taps, values);
+  return {values[0], values[1], values[2]};
+}
+
 }  // namespace rnmbake

@@ -39,4 +39,7 @@ struct Tap {
 /// Weighted sum of the taps' texels, one value for each channel of `out`.
 void sample(const FloatImage& image, const std::array<Tap, 4>& taps, std::span<float> out);
 
+/// The same of the first three channels.
+[[nodiscard]] Vec3 sampled_vec3(const FloatImage& image, const std::array<Tap, 4>& taps);
+
 }  // namespace rnmbake

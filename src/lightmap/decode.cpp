@@ -29,18 +29,11 @@ void require_layers(const Lightmap& lightmap, DecodeVariant variant) {
   }
 }
 
-Vec3 colour(const FloatImage& map, const std::array<Tap, 4>& taps) {
-  std::array<float, 3> rgb{};
-  sample(map, taps, rgb);
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
 template <typename NormalAt>
 FloatImage decode_all(const LightmapDecoder& decoder, FloatImage result, Green green, NormalAt normal_at) {
   for (int y = 0; y < result.height(); ++y) {
     for (int x = 0; x < result.width(); ++x) {
-      const Vec3 lit = decoder.at(texel_uv(result, x, y), normal_at(x, y), green);
-      std::ranges::copy(std::array{lit.x, lit.y, lit.z}, result.texel(x, y).begin());
+      set_vec3(result, x, y, decoder.at(texel_uv(result, x, y), normal_at(x, y), green));
     }
   }
   return result;
@@ -123,8 +116,7 @@ FloatImage normals_of(const FloatImage& pixels, const VectorSource& source) {
   FloatImage normals(pixels.width(), pixels.height(), 3);
   for (int y = 0; y < pixels.height(); ++y) {
     for (int x = 0; x < pixels.width(); ++x) {
-      const Vec3 normal = normal_from(pixels.texel(x, y), source);
-      std::ranges::copy(std::array{normal.x, normal.y, normal.z}, normals.texel(x, y).begin());
+      set_vec3(normals, x, y, normal_from(pixels.texel(x, y), source));
     }
   }
   return normals;
@@ -191,7 +183,7 @@ std::array<Tap, 4> LightmapDecoder::taps_at(const Vec2& uv) const {
 Vec3 LightmapDecoder::encoded_at(const std::array<Tap, 4>& taps, const Vec3& normal) const {
   std::vector<Vec3> values;
   values.reserve(encoded_.size());
-  for (const FloatImage& layer : encoded_) values.push_back(colour(layer, taps));
+  for (const FloatImage& layer : encoded_) values.push_back(sampled_vec3(layer, taps));
   if (metadata_.space != "world") return codec_->decode(values, normal);
   const Tap& most = *std::ranges::max_element(taps, {}, &Tap::weight);
   const auto frame = frame_at(tangent_, normal_, most.x, most.y, metadata_.green);
@@ -200,12 +192,12 @@ Vec3 LightmapDecoder::encoded_at(const std::array<Tap, 4>& taps, const Vec3& nor
 
 std::array<Vec3, 3> LightmapDecoder::rnm_at(const Vec2& uv) const {
   const auto taps = taps_at(uv);
-  return {colour(rnm_[0], taps), colour(rnm_[1], taps), colour(rnm_[2], taps)};
+  return {sampled_vec3(rnm_[0], taps), sampled_vec3(rnm_[1], taps), sampled_vec3(rnm_[2], taps)};
 }
 
 Vec3 LightmapDecoder::at(const Vec2& uv, const Vec3& normal, Green green) const {
   const auto taps = taps_at(uv);
-  if (variant_ == DecodeVariant::single) return colour(flat_, taps);
+  if (variant_ == DecodeVariant::single) return sampled_vec3(flat_, taps);
   const Vec3 turned = green == metadata_.green ? normal : flip_green(normal);
   if (codec_) return encoded_at(taps, turned);
   const std::array<Vec3, 3> maps = rnm_at(uv);

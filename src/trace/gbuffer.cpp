@@ -7,11 +7,6 @@
 namespace rnmbake {
 namespace {
 
-template <typename Vector>
-void put(FloatImage& image, int x, int y, const Vector& value) {
-  for (int c = 0; c < 3; ++c) image.texel(x, y)[static_cast<std::size_t>(c)] = static_cast<float>(value[c]);
-}
-
 Vec3d along(const Mat44& to_world, const Vec3d& direction) {
   Vec3d result;
   to_world.multDirMatrix(direction, result);
@@ -35,9 +30,9 @@ GBuffer trace_gbuffer(const TraceScene& scene, const Camera& camera, const ViewO
     const PrimaryHit seen = follow_primary(scene, rays.through(x + 0.5, y + 0.5), sampler);
     if (!seen.met) return;
     const Vec3d position = Vec3d(seen.vertex.position) + scene.origin();
-    put(result.normal, x, y, normal(seen.vertex));
-    put(result.face, x, y, seen.vertex.face);
-    put(result.position, x, y, position);
+    set_vec3(result.normal, x, y, normal(seen.vertex));
+    set_vec3(result.face, x, y, Vec3(seen.vertex.face));
+    set_vec3(result.position, x, y, Vec3(position));
     result.depth.texel(x, y)[0] = static_cast<float>((position - eye).dot(ahead));
     result.object.texel(x, y)[0] = static_cast<float>(scene.triangles().object[seen.vertex.triangle] + 1);
     result.coverage.texel(x, y)[0] = 1;

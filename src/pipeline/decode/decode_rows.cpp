@@ -1,20 +1,9 @@
 #include "pipeline/decode/decode_rows.h"
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
 namespace rnmbake {
-namespace {
-
-/// Calls do_band(begin, end) from top to bottom.
-template <typename DoBand>
-void each_band(int height, const DoBand& do_band) {
-  for (int begin = 0; begin < height; begin += LayerRows::band)
-    do_band(begin, std::min(begin + LayerRows::band, height));
-}
-
-}  // namespace
 
 NormalRows::NormalRows(const std::filesystem::path& file)
     : rows_(file), header_(rows_.header()), source_(vector_source(header_, file.string())) {

@@ -6,7 +6,6 @@
 #include "image/sample.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -57,13 +56,9 @@ FloatImage decode_directions(Lightmap lightmap, const DirectionMap& map) {
       auto taps = bilinear_taps(layers.front(), texel_uv(result, x, y), Border::clamp);
       if (!lightmap.coverage.empty()) taps = covered_taps(taps, lightmap.coverage);
       Vec3 sum(0);
-      for (std::size_t i = 0; i < layers.size(); ++i) {
-        std::array<float, 3> rgb{};
-        sample(layers[i], taps, rgb);
-        sum += Vec3(rgb[0], rgb[1], rgb[2]) * map.weights.texel(x, y)[i];
-      }
-      const auto texel = result.texel(x, y);
-      for (int c = 0; c < 3; ++c) texel[static_cast<std::size_t>(c)] = std::max(0.0F, sum[c]);
+      for (std::size_t i = 0; i < layers.size(); ++i)
+        sum += sampled_vec3(layers[i], taps) * map.weights.texel(x, y)[i];
+      set_vec3(result, x, y, {std::max(0.0F, sum.x), std::max(0.0F, sum.y), std::max(0.0F, sum.z)});
     }
   }
   return result;

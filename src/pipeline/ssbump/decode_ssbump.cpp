@@ -34,8 +34,7 @@ FloatImage decode_ssbump(Lightmap lightmap, const SsbumpPicture& ssbump, DecodeV
       const Vec3 above = has_up ? least(maps) : Vec3(0);
       const Vec3 three =
           (maps[0] - above) * w[0] + (maps[1] - above) * w[upper] + (maps[2] - above) * w[lower];
-      const Vec3 lit = three / 3 + above * w[SsbumpWeights::up];
-      std::ranges::copy(std::array{lit.x, lit.y, lit.z}, result.texel(x, y).begin());
+      set_vec3(result, x, y, three / 3 + above * w[SsbumpWeights::up]);
     }
   }
   return result;
