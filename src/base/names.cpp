@@ -120,4 +120,14 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return best ? fmt::format(", did you mean '{}'?", *best) : "";
 }
 
+std::string file_word(std::string_view label) {
+  std::string word;
+  for (const char c : lower_case(std::string(label))) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (is_plain) word += c;
+    if (!is_plain && !word.empty() && word.back() != '-') word += '-';
+  }
+  return word;
+}
+
 }  // namespace rnmbake

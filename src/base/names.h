@@ -28,6 +28,10 @@ class FileStems {
   std::set<std::string> taken_;  // folded
 };
 
+/// "rnm-squared" of "RNM, squared": a-z and 0-9, with a dash for all between; of a label of our own, for a
+/// file.
+std::string file_word(std::string_view label);
+
 /// The candidate closest to `word` by edit distance (insert, delete, replace, swap neighbours; case is
 /// ignored), if it is close enough to be a slip of the finger.
 std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& candidates);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/names.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/command_line.h"
@@ -20,7 +21,6 @@
 #include "report/write.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -58,7 +58,7 @@ class OpenScene {
   void write_picture() {
     const RenderOptions options = render_options(!flags_.with.empty());
     if (flags_.gbuffer) return write_gbuffer(options.view);
-    if (!flags_.with.empty()) return write({by_blender(options), {}, {}});
+    if (!flags_.with.empty()) return write({by_blender(options.view), {}, {}});
     write(render_view(scene_, lightmaps(), *lighting_of(decode_), options));
   }
 
@@ -107,17 +107,10 @@ class OpenScene {
     return options;
   }
 
-  [[nodiscard]] FloatImage by_blender(const RenderOptions& options) {
-    const BakeSettings& settings = config_.globals;
-    auto pictures = render_blender(session_, exported_,
-                                   {flags_.with == "eevee" ? BlenderEngine::eevee : BlenderEngine::cycles,
-                                    options.view.width,
-                                    options.view.height,
-                                    options.view.samples,
-                                    settings.bake.bounces,
-                                    {settings.object.seed},
-                                    flags_.materials == "full"});
-    return std::move(pictures.front());
+  [[nodiscard]] FloatImage by_blender(const ViewOptions& view) {
+    BlenderViewOptions options = blender_view(session_, view, flags_.materials == "full");
+    if (flags_.with == "eevee") options.engine = BlenderEngine::eevee;
+    return std::move(render_blender(session_, exported_, options).front());
   }
 
   void write(View&& view) const {
@@ -141,26 +134,13 @@ class OpenScene {
   std::optional<SceneLightmaps> lightmaps_;
 };
 
-/// "RNM, squared" -> "rnm-squared.exr".
-std::string file_name(const std::string& label) {
-  std::string name;
-  for (const char c : lower_case(label)) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      name += c;
-    } else if (!name.empty() && name.back() != '-') {
-      name += '-';
-    }
-  }
-  return name + ".exr";
-}
-
 void write_comparison(Report report, const ResolvedConfig& config, const RenderFlags& flags) {
   report.title = config.globals.scene.file.filename().string() + ": one view, several ways to light it";
   report.command = command_line("render", config) + flags.as_text();
   for (const ViewPicture& picture : report.views.front().pictures) {
     LayeredImage image;
     image.layers.push_back({"", {"R", "G", "B"}, picture.picture});
-    write_exr(flags.output / file_name(picture.label), image, Depth::full);
+    write_exr(flags.output / (file_word(picture.label) + ".exr"), image, Depth::full);
   }
   write_report(report, flags.output);
   std::cout << printable(report.finding) << '\n';

@@ -33,11 +33,6 @@ struct StudyFlags {
   std::string resolution = "16", error = "3";  // of a scene's truth
 };
 
-bool is_scene(const std::filesystem::path& path) {
-  const std::string ending = lower_extension(path);
-  return ending == ".blend" || ending == ".glb" || ending == ".gltf" || ending == ".rnmscene";
-}
-
 /// DIR/truth, with what is traced of the scene.
 std::filesystem::path traced(const StudyFlags& flags) {
   if (flags.output.empty())
@@ -94,14 +89,14 @@ StudyReport study(const StudyFlags& flags) {
     return found;
   }
   const std::filesystem::path lightmaps =
-      is_scene(flags.what) ? traced(flags) : std::filesystem::path(flags.what);
+      is_scene_path(flags.what, Purpose::reference) ? traced(flags) : std::filesystem::path(flags.what);
   return report(std::filesystem::path(flags.what).filename().string(), study_lightmaps(lightmaps, update));
 }
 
 int run_study(const StudyFlags& flags) {
   const StudyReport found = study(flags);
   if (!flags.output.empty()) write_study(found, flags.output);
-  std::cout << (flags.json ? study_json(found) : study_text(found));
+  std::cout << (flags.json ? study_json(found).dump(2) + '\n' : study_text(found));
   return static_cast<int>(ExitCode::ok);
 }
 

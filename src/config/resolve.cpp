@@ -51,6 +51,11 @@ void check_bases(const BakingSettings& bake, const std::string& where) {
   }
 }
 
+std::vector<std::string> scene_endings(Purpose purpose) {
+  if (purpose == Purpose::reference) return {".rnmscene", ".blend", ".glb", ".gltf"};
+  return {".blend", ".glb", ".gltf"};
+}
+
 }  // namespace
 
 void ResolvedConfig::take(const SettingOverride& given) {
@@ -176,16 +181,20 @@ bool is_project_path(const std::filesystem::path& path) {
   return lower_extension(path) == ".toml";
 }
 
+bool is_scene_path(const std::filesystem::path& path, Purpose purpose) {
+  return std::ranges::count(scene_endings(purpose), lower_extension(path)) > 0;
+}
+
 void require_scene(const ResolvedConfig& config, Purpose purpose) {
-  std::vector<std::string_view> endings{".blend", ".glb"};
-  if (purpose == Purpose::reference) endings.insert(endings.begin(), ".rnmscene");
-  const std::string known = fmt::format("{} or .gltf", fmt::join(endings, ", "));
-  endings.emplace_back(".gltf");
+  std::vector<std::string> endings = scene_endings(purpose);
+  const std::string last = endings.back();
+  endings.pop_back();
+  const std::string known = fmt::format("{} or {}", fmt::join(endings, ", "), last);
   const std::filesystem::path& file = config.globals.scene.file;
   if (file.empty()) {
     fail(ExitCode::usage, "no scene: name a {} file, or a project .toml whose [scene] sets file", known);
   }
-  if (std::find(endings.begin(), endings.end(), lower_extension(file)) == endings.end()) {
+  if (!is_scene_path(file, purpose)) {
     fail(ExitCode::usage, "{}: not a scene by its ending; give a {} file, or a project .toml", file.string(),
          known);
   }

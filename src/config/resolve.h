@@ -65,6 +65,9 @@ struct UnmatchedPattern {
 
 [[nodiscard]] bool is_project_path(const std::filesystem::path& path);
 
+/// By its ending: .blend, .glb or .gltf; for a reference also .rnmscene.
+[[nodiscard]] bool is_scene_path(const std::filesystem::path& path, Purpose purpose);
+
 /// Throws Error(usage) where no scene was named or its ending is not .blend, .glb or .gltf (for a reference
 /// also .rnmscene), and Error(io) where there is no such file.
 void require_scene(const ResolvedConfig& config, Purpose purpose = Purpose::bake);

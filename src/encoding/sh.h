@@ -4,6 +4,7 @@
 #include "base/math.h"
 
 #include <array>
+#include <cstddef>
 
 namespace rnmbake {
 
@@ -26,5 +27,12 @@ namespace rnmbake {
 /// Zonal coefficients A(l) of the clamped cosine over pi, which turn coefficients c of radiance into
 /// irradiance: E/pi = sum of A(l) c(l, m) Y(l, m).
 inline constexpr std::array<float, 3> sh_cosine_over_pi{1.0F, 2.0F / 3, 1.0F / 4};
+
+/// A(l) Y(l, m) of a unit normal: what coefficients of radiance are multiplied with to give E/pi.
+[[nodiscard]] inline std::array<float, 9> sh_irradiance_basis(const Vec3& normal) {
+  std::array<float, 9> values = sh_basis(normal);
+  for (std::size_t i = 0; i < 9; ++i) values[i] *= sh_cosine_over_pi[i == 0 ? 0 : i < 4 ? 1 : 2];
+  return values;
+}
 
 }  // namespace rnmbake

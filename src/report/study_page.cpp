@@ -6,21 +6,18 @@
 
 namespace rnmbake {
 
-using json = nlohmann::ordered_json;
-
 std::string to_html(const StudyPage& page) {
-  json study = json::parse(page.figures);
-  study["probe"] = page.probe.empty() ? json(nullptr) : json::parse(page.probe);
-  study["pictures"] = json::array();
+  nlohmann::ordered_json study = page.study;
+  study["pictures"] = nlohmann::ordered_json::array();
   for (const StudyPicture& picture : page.pictures) {
     study["pictures"].push_back({{"label", picture.label},
                                  {"rms", picture.rms},
                                  {"source", "data:image/png;base64," + base64(picture.png)}});
   }
   return filled(embedded_files(embedded_study(), "study.html"),
-                {{"title", escaped(page.title)},
+                {{"head", page_head(page.title, "img-src data:; ")},
+                 {"title", escaped(page.title)},
                  {"finding", unbroken(escaped(page.finding))},
-                 {"style", embedded_files(embedded_report(), "style.css")},
                  {"study", for_script(study)},
                  {"script", embedded_files(embedded_report(), "format.js") +
                                 embedded_files(embedded_report(), "charts.js") +

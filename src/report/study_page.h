@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace rnmbake {
 
 struct StudyPicture {
@@ -15,8 +17,7 @@ struct StudyPicture {
 
 struct StudyPage {
   std::string title, finding;
-  std::string figures;                 // JSON of the table: docs/study.md
-  std::string probe;                   // JSON of the whole sphere's table, or ""
+  nlohmann::ordered_json study;        // what encodings.json holds: docs/study.md
   std::vector<StudyPicture> pictures;  // the truth first, or none
 };
 

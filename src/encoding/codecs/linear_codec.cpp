@@ -28,9 +28,7 @@ void sh2_values(const Vec3d& n, std::span<double> values) {
 }
 
 void sh3_values(const Vec3d& n, std::span<double> values) {
-  const auto harmonics = sh_basis(Vec3(n));
-  for (std::size_t i = 0; i < 9; ++i)
-    values[i] = harmonics[i] * sh_cosine_over_pi[i == 0 ? 0 : i < 4 ? 1 : 2];
+  std::ranges::copy(sh_irradiance_basis(Vec3(n)), values.begin());
 }
 
 void h_values(const Vec3d& n, std::span<double> values) {

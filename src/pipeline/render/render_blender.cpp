@@ -49,6 +49,12 @@ FloatImage read_picture(const fs::path& file, const BlenderViewOptions& options)
 
 }  // namespace
 
+BlenderViewOptions blender_view(const BlenderSession& session, const ViewOptions& view, bool own_materials) {
+  const BakeSettings& settings = session.settings();
+  return {BlenderEngine::cycles,  view.width,   view.height, view.samples, settings.bake.bounces,
+          {settings.object.seed}, own_materials};
+}
+
 std::vector<FloatImage> render_blender(BlenderSession& session, const ExportResult& exported,
                                        const BlenderViewOptions& options) {
   const BakeSettings& settings = session.settings();

@@ -4,6 +4,7 @@
 #include "blender/blender_session.h"
 #include "image/float_image.h"
 #include "pipeline/scene/export_scene.h"
+#include "trace/view.h"
 
 #include <vector>
 
@@ -19,6 +20,10 @@ struct BlenderViewOptions {
   std::vector<int> seeds{0};   // Eevee has none, so one
   bool own_materials = false;  // else the lambert ones, with their normal maps
 };
+
+/// Cycles with the size and samples of `view`, and the session's bounces and seed.
+[[nodiscard]] BlenderViewOptions blender_view(const BlenderSession& session, const ViewOptions& view,
+                                              bool own_materials);
 
 /// Linear RGB for each seed, in one launch: unfiltered, not denoised, the world behind; no depth of field, no
 /// motion blur. Eevee needs OpenGL, if by software. Throws Error(usage) where the scene is a .rnmscene, and

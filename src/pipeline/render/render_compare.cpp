@@ -70,15 +70,8 @@ Halves decode(const TraceScene& scene, const SceneLightmaps& lightmaps, DecodeVa
   return {render_view(scene, &lightmaps, {Lighting::Kind::decoded, variant}, options).beauty, {}};
 }
 
-BlenderViewOptions blender_options(const BlenderSession& session, const ViewCompareOptions& options) {
-  const ViewOptions& view = options.render.view;
-  const BakeSettings& settings = session.settings();
-  return {BlenderEngine::cycles,  view.width,           view.height, view.samples, settings.bake.bounces,
-          {settings.object.seed}, options.own_materials};
-}
-
 Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewCompareOptions& options) {
-  BlenderViewOptions halves = blender_options(session, options);
+  BlenderViewOptions halves = blender_view(session, options.render.view, options.own_materials);
   halves.samples = half_of(halves.samples);
   halves.seeds.push_back(halves.seeds.front() + 1);
   std::vector<FloatImage> pictures = render_blender(session, exported, halves);
@@ -88,7 +81,7 @@ Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewC
 /// Nothing, with the reason on the log, where this machine or Blender has no OpenGL.
 std::optional<Halves> eevee(BlenderSession& session, const ExportResult& exported,
                             const ViewCompareOptions& options) {
-  BlenderViewOptions one = blender_options(session, options);
+  BlenderViewOptions one = blender_view(session, options.render.view, options.own_materials);
   one.engine = BlenderEngine::eevee;
   one.samples = std::min(eevee_samples, one.samples);
   try {

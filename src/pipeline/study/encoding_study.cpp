@@ -13,8 +13,6 @@
 #include <sstream>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace rnmbake {
 namespace {
 
@@ -158,11 +156,9 @@ void EncodingStudy::merge(const EncodingStudy& other) {
   lights_ += other.lights_;
 }
 
-std::vector<Vec3> EncodingStudy::decoded(std::span<const Vec3> at_fed, const Vec3& normal) const {
-  std::vector<Vec3> all;
-  for (const StudiedCodec& studied : setup_->codecs)
-    all.push_back(studied.codec ? studied.codec->decode(studied.encoded(at_fed), normal) : Vec3(0));
-  return all;
+Vec3 EncodingStudy::decoded(std::size_t encoding, std::span<const Vec3> at_fed, const Vec3& normal) const {
+  const StudiedCodec& studied = setup_->codecs[encoding];
+  return studied.codec ? studied.codec->decode(studied.encoded(at_fed), normal) : Vec3(0);
 }
 
 std::vector<EncodingErrors> EncodingStudy::errors() const {
@@ -207,8 +203,8 @@ std::string study_markdown(const std::vector<EncodingErrors>& errors) {
   return out.str();
 }
 
-std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t lights) {
-  nlohmann::json list = nlohmann::json::array();
+nlohmann::json study_json(const std::vector<EncodingErrors>& errors, std::size_t lights) {
+  auto list = nlohmann::json::array();
   for (const EncodingErrors& one : errors) {
     nlohmann::json entry{{"encoding", one.codec.name},
                          {"range", one.codec.range},
@@ -216,17 +212,17 @@ std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t li
                          {"mono", one.codec.mono},
                          {"label", one.label}};
     if (one.unfit.empty()) {
-      entry.update({{"bakes", one.bakes},
-                    {"bytes", one.bytes},
-                    {"rms", one.rms},
-                    {"bias", one.bias},
-                    {"flat_bias", one.flat_bias}});
+      entry["bakes"] = one.bakes;
+      entry["bytes"] = one.bytes;
+      entry["rms"] = one.rms;
+      entry["bias"] = one.bias;
+      entry["flat_bias"] = one.flat_bias;
     } else {
       entry["unfit"] = one.unfit;
     }
     list.push_back(std::move(entry));
   }
-  return nlohmann::json{{"lights", lights}, {"tilt_limits", tilt_limits}, {"encodings", list}}.dump(2) + "\n";
+  return {{"lights", lights}, {"tilt_limits", tilt_limits}, {"encodings", list}};
 }
 
 }  // namespace rnmbake

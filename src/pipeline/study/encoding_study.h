@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace rnmbake {
 
 /// Degrees between a normal and the surface's own: errors are means over all tested normals up to each.
@@ -47,9 +49,9 @@ class EncodingStudy {
 
   [[nodiscard]] std::size_t lights() const { return lights_; }
 
-  /// What each encoding decodes of one light, given as for add(), at a unit normal of tangent space; 0 where
-  /// it is unfit. In the order of encodings_to_study().
-  [[nodiscard]] std::vector<Vec3> decoded(std::span<const Vec3> at_fed, const Vec3& normal) const;
+  /// What an encoding, by its place in encodings_to_study(), decodes of one light, given as for add(), at a
+  /// unit normal of tangent space; 0 where it is unfit.
+  [[nodiscard]] Vec3 decoded(std::size_t encoding, std::span<const Vec3> at_fed, const Vec3& normal) const;
 
   /// In the order of encodings_to_study().
   [[nodiscard]] std::vector<EncodingErrors> errors() const;
@@ -75,6 +77,6 @@ class EncodingStudy {
 /// As a text table, as Markdown, or as JSON.
 [[nodiscard]] std::string study_table(const std::vector<EncodingErrors>& errors);
 [[nodiscard]] std::string study_markdown(const std::vector<EncodingErrors>& errors);
-[[nodiscard]] std::string study_json(const std::vector<EncodingErrors>& errors, std::size_t lights);
+[[nodiscard]] nlohmann::json study_json(const std::vector<EncodingErrors>& errors, std::size_t lights);
 
 }  // namespace rnmbake

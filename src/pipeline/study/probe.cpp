@@ -16,7 +16,6 @@
 #include <sstream>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -49,31 +48,19 @@ std::array<Harmonics, 3> harmonics_of(const DistantLight& light) {
   return sums;
 }
 
-struct Linear {
-  double a;
-  Vec3d v;
-};
-
-Linear linear_of(const Harmonics& c) {
-  constexpr double y0 = 0.28209479, y1 = 0.48860251 * 2 / 3;
-  return {c[0] * y0, {c[3] * y1, c[1] * y1, c[2] * y1}};
-}
-
 /// Decoders of one colour, by its harmonics; the value at a normal.
 using Decoder = double (*)(const Harmonics&, const Vec3d& normal);
 
 double decoded_sh(const Harmonics& c, const Vec3d& normal, std::size_t bands) {
-  const auto basis = sh_basis(Vec3(normal));
+  const auto basis = sh_irradiance_basis(Vec3(normal));
   double sum = 0;
-  for (std::size_t i = 0; i < bands * bands; ++i)
-    sum += c[i] * double(basis[i]) * double(sh_cosine_over_pi[i == 0 ? 0 : i < 4 ? 1 : 2]);
+  for (std::size_t i = 0; i < bands * bands; ++i) sum += c[i] * double(basis[i]);
   return sum;
 }
 
-double lobe_value(LobeValue (*lobe)(double, const Vec3d&, const Vec3d&), const Harmonics& c,
-                  const Vec3d& normal) {
-  const Linear linear = linear_of(c);
-  return lobe(linear.a, linear.v, normal).value;
+double lobe_value(Lobe lobe, const Harmonics& c, const Vec3d& normal) {
+  constexpr double y0 = 0.28209479, y1 = 0.48860251 * 2 / 3;
+  return lobe(c[0] * y0, Vec3d(c[3], c[1], c[2]) * y1, normal).value;
 }
 
 /// Takes the orthonormal coefficients for the mean radiance and the flow of light, as Probulator does: 13 %
@@ -238,8 +225,8 @@ std::string probe_markdown(const ProbeTable& table) {
   return out.str();
 }
 
-std::string probe_json(const ProbeTable& table) {
-  nlohmann::json list = nlohmann::json::array();
+nlohmann::json probe_json(const ProbeTable& table) {
+  auto list = nlohmann::json::array();
   for (const ProbeErrors& one : table.errors) {
     list.push_back({{"encoding", one.label},
                     {"numbers", one.numbers},
@@ -247,7 +234,7 @@ std::string probe_json(const ProbeTable& table) {
                     {"rms_by_solid_angle", one.by_angle},
                     {"bias", one.bias}});
   }
-  return nlohmann::json{{"mean", table.mean}, {"encodings", list}}.dump(2) + "\n";
+  return {{"mean", table.mean}, {"encodings", list}};
 }
 
 }  // namespace rnmbake

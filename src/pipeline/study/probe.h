@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace rnmbake {
 
 /// Direction of the middle of the picture's texel, as Blender takes an equirectangular world: row 0 is z, the
@@ -40,11 +42,11 @@ struct ProbeTable {
 /// E/pi of the whole sphere's light at normals that are the texels' middles of `rows` rows, against what each
 /// encoding decodes there. by_texel is the measure of Probulator's reports
 /// (https://github.com/kayru/Probulator), whose SH values are cut off below 0, too.
-[[nodiscard]] ProbeTable study_probe_sphere(const DistantLight& light, int rows = 128);
+[[nodiscard]] ProbeTable study_probe_sphere(const DistantLight& light, int rows = most_probe_rows);
 
 /// As a text table, as Markdown, or as JSON.
 [[nodiscard]] std::string probe_table(const ProbeTable& table);
 [[nodiscard]] std::string probe_markdown(const ProbeTable& table);
-[[nodiscard]] std::string probe_json(const ProbeTable& table);
+[[nodiscard]] nlohmann::json probe_json(const ProbeTable& table);
 
 }  // namespace rnmbake

@@ -46,8 +46,7 @@ std::string rnm_finding(const std::vector<EncodingErrors>& errors) {
                                       : fmt::format("pays up to {:g} degrees of tilt", tilt_limits[from - 1]);
   return fmt::format(
       "In this light Source's RNM {}: from the same {} bakes '{}' takes {} bytes instead of {} and is off by "
-      "{:.1f} % "
-      "instead of {:.1f} % up to {:g} degrees.",
+      "{:.1f} % instead of {:.1f} % up to {:g} degrees.",
       where, rnm->bakes, best->label, best->bytes, rnm->bytes, 100 * best->rms[shown], 100 * rnm->rms[shown],
       tilt_limits[shown]);
 }

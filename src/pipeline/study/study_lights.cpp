@@ -5,6 +5,7 @@
 #include "encoding/direction_sets.h"
 #include "encoding/encodings.h"
 #include "encoding/random_light.h"
+#include "encoding/texel_frame.h"
 #include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/lightmap_rows.h"
 
@@ -21,7 +22,11 @@
 namespace rnmbake {
 namespace {
 
-constexpr std::size_t tested_normals = 256;
+std::vector<Vec3> normals_to_test() {
+  std::vector<Vec3> normals;
+  for (const Vec3d& normal : spread_over_hemisphere(256)) normals.emplace_back(normal);
+  return normals;
+}
 
 /// Bakes that codecs are fed with, and the others, whose directions are the normals they are tested at.
 struct FedAndTested {
@@ -37,11 +42,10 @@ FedAndTested divided(const LightmapMetadata& metadata, const std::string& file) 
   const bool feeds = std::ranges::all_of(
       least.directions, [&](const BasisDirection& basis) { return place_of(all.fed, basis).has_value(); });
   if (!feeds || all.tested.empty()) {
-    fail(
-        ExitCode::unsupported,
-        "{} has no bakes to test encodings at: needed are flat, rnm0 to rnm2 and other directions; bake with "
-        "--basis-set study (docs/study.md)",
-        file);
+    fail(ExitCode::unsupported,
+         "{} has no bakes to test encodings at: needed are flat, rnm0 to rnm2 and other directions; bake "
+         "with --basis-set study (docs/study.md)",
+         file);
   }
   return all;
 }
@@ -90,17 +94,15 @@ void add_lightmap(const LightmapPlace& place, const FedAndTested& directions, En
     fail(ExitCode::invalid_input, "{} has other directions than {}; bake them together", lightmap.file(),
          directions.fed.name);
   }
-  for (int begin = 0; begin < lightmap.height(); begin += LightmapRows::band)
-    add_texels(lightmap.read(begin, std::min(begin + LightmapRows::band, lightmap.height())), directions,
-               study);
+  each_band(lightmap.height(),
+            [&](int begin, int end) { add_texels(lightmap.read(begin, end), directions, study); });
 }
 
 }  // namespace
 
 EncodingStudy study_random(std::size_t count, std::uint64_t seed) {
   const BasisSet fed = direction_set("sh3").value();  // all of them: the sets are nested
-  std::vector<Vec3> normals;
-  for (const Vec3d& normal : spread_over_hemisphere(tested_normals)) normals.emplace_back(normal);
+  const std::vector<Vec3> normals = normals_to_test();
   EncodingStudy study(fed, normals);
   std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
   std::vector<Vec3> at_normals(normals.size());
@@ -118,16 +120,16 @@ EncodingStudy study_random(std::size_t count, std::uint64_t seed) {
 EncodingStudy study_probe(const DistantLight& light, std::size_t count, std::uint64_t seed,
                           const std::function<void(double)>& progress) {
   const BasisSet fed = direction_set("sh3").value();
-  std::vector<Vec3> directions, normals;
+  const std::vector<Vec3> normals = normals_to_test();
+  std::vector<Vec3> directions;
   for (const BasisDirection& basis : fed.directions) directions.push_back(basis.direction);
-  for (const Vec3d& normal : spread_over_hemisphere(tested_normals)) normals.emplace_back(normal);
   directions.insert(directions.end(), normals.begin(), normals.end());
   EncodingStudy study(fed, normals);
   std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
   constexpr std::size_t at_once = 64;
   for (std::size_t begin = 0; begin < count; begin += at_once) {
     if (progress) progress(double(begin) / double(count));
-    std::vector<std::array<Vec3, 3>> frames;  // tangent, bitangent, normal of the surfaces
+    std::vector<TexelFrame> frames;  // of the surfaces
     while (frames.size() < std::min(at_once, count - begin)) {
       const Vec3 normal(random_direction(random)), tangent = normal.cross(Vec3(random_direction(random)));
       if (tangent.length() > 1e-3F)
@@ -135,10 +137,9 @@ EncodingStudy study_probe(const DistantLight& light, std::size_t count, std::uin
     }
     std::vector<std::vector<Vec3>> lights(frames.size());
     tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
-      const auto& [tangent, bitangent, normal] = frames[i];
       std::vector<Vec3> world;
-      for (const Vec3& d : directions) world.push_back(tangent * d.x + bitangent * d.y + normal * d.z);
-      lights[i] = irradiance(light, normal, world);
+      for (const Vec3& direction : directions) world.push_back(frames[i].stored(direction));
+      lights[i] = irradiance(light, frames[i].normal, world);
     });
     for (const std::vector<Vec3>& values : lights) {  // in their order: sums do not depend on threads
       const std::span<const Vec3> all(values);

@@ -1,6 +1,7 @@
 #include "pipeline/study/study_report.h"
 
 #include "base/files.h"
+#include "base/names.h"
 #include "base/text.h"
 #include "image/display_png.h"
 #include "pipeline/study/study_finding.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
@@ -29,24 +29,13 @@ float exposure_for(const FloatImage& truth) {
   return -std::log2(*place);
 }
 
-/// "zh3-k-2-8-bits-mono.png"
-std::string file_of(const std::string& label) {
-  std::string name;
-  for (const char c : lower_case(label)) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_plain) name += c;
-    if (!is_plain && !name.empty() && name.back() != '-') name += '-';
-  }
-  return name + ".png";
-}
-
 std::vector<StudyPicture> write_spheres(const std::vector<SpherePicture>& pictures, const fs::path& folder) {
   std::vector<StudyPicture> written;
   if (pictures.empty()) return written;
   make_folders(folder);
   const float exposure = exposure_for(pictures.front().pixels);
   for (const SpherePicture& picture : pictures) {
-    const fs::path file = folder / file_of(picture.label);
+    const fs::path file = folder / (file_word(picture.label) + ".png");
     write_display_png(file, picture.pixels, exposure);
     written.push_back({picture.label, picture.rms, read_text(file)});
   }
@@ -67,23 +56,22 @@ std::string study_text(const StudyReport& report) {
   return finding.empty() ? text : text + '\n' + finding + '\n';
 }
 
-std::string study_json(const StudyReport& report) {
-  nlohmann::ordered_json document = nlohmann::ordered_json::parse(study_json(report.errors, report.lights));
+nlohmann::ordered_json study_json(const StudyReport& report) {
+  nlohmann::ordered_json document = study_json(report.errors, report.lights);
   document["finding"] = rnm_finding(report.errors);
-  if (report.probe) document["probe"] = nlohmann::ordered_json::parse(probe_json(*report.probe));
-  return document.dump(2) + "\n";
+  if (report.probe) document["probe"] = probe_json(*report.probe);
+  return document;
 }
 
 void write_study(const StudyReport& report, const fs::path& folder) {
   make_folders(folder);
-  StudyPage page{report.title, rnm_finding(report.errors), study_json(report.errors, report.lights),
-                 report.probe ? probe_json(*report.probe) : "",
-                 write_spheres(report.pictures, folder / "spheres")};
+  const StudyPage page{report.title, rnm_finding(report.errors), study_json(report),
+                       write_spheres(report.pictures, folder / "spheres")};
   std::string markdown = study_markdown(report.errors);
   if (report.probe) markdown += '\n' + probe_markdown(*report.probe);
   if (!page.finding.empty()) markdown += '\n' + page.finding + '\n';
   write_atomically(folder / "encodings.md", markdown);
-  write_atomically(folder / "encodings.json", study_json(report));
+  write_atomically(folder / "encodings.json", page.study.dump(2) + '\n');
   write_atomically(folder / "encodings.html", to_html(page));
 }
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace rnmbake {
 
 struct StudyReport {
@@ -28,6 +30,6 @@ struct StudyReport {
 void write_study(const StudyReport& report, const std::filesystem::path& folder);
 
 /// What encodings.json holds: docs/study.md.
-[[nodiscard]] std::string study_json(const StudyReport& report);
+[[nodiscard]] nlohmann::ordered_json study_json(const StudyReport& report);
 
 }  // namespace rnmbake

@@ -2,11 +2,11 @@
 
 #include "encoding/direction_sets.h"
 #include "encoding/random_light.h"
+#include "encoding/texel_frame.h"
 #include "pipeline/study/encoding_study.h"
 
-#include <array>
 #include <cmath>
-#include <utility>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -24,8 +24,8 @@ void add_lamp(DistantLight& light, std::size_t points, const Vec3& axis, float s
 
 /// Normal of the bumpy sphere in the tangent space of its point.
 struct BumpyPoint {
-  std::array<Vec3, 3> frame;  // tangent, bitangent, normal of the smooth sphere, world space
-  Vec3 normal;                // of the bumps, tangent space
+  TexelFrame frame;  // of the smooth sphere, world space
+  Vec3 normal;       // of the bumps, tangent space
 };
 
 BumpyPoint bumpy_point(const Vec3& p) {
@@ -35,9 +35,9 @@ BumpyPoint bumpy_point(const Vec3& p) {
              c(std::cos(w.x), std::cos(w.y), std::cos(w.z));
   // Of sin x cos y + sin y cos z + sin z cos x, up to 1.
   const Vec3 slope = Vec3(c.x * c.y - s.z * s.x, c.y * c.z - s.x * s.y, c.z * c.x - s.y * s.z) / 1.75F;
-  const BumpyPoint smooth{{side, p.cross(side), p}, {}};
-  const Vec3 tilted(-steepness * slope.dot(side), -steepness * slope.dot(smooth.frame[1]), 1);
-  return {smooth.frame, tilted.normalized()};
+  const TexelFrame frame{side, p.cross(side), p};
+  const Vec3 tilted(-steepness * slope.dot(frame.tangent), -steepness * slope.dot(frame.bitangent), 1);
+  return {frame, tilted.normalized()};
 }
 
 bool is_pictured(const EncodingErrors& one) {
@@ -77,19 +77,13 @@ std::vector<SpherePicture> sphere_pictures(const DistantLight& light, int side) 
       if (rest <= 0) continue;
       const BumpyPoint point = bumpy_point({x, -std::sqrt(rest), z});
       std::vector<Vec3> world;
-      const auto add = [&](const Vec3& d) {
-        world.push_back(point.frame[0] * d.x + point.frame[1] * d.y + point.frame[2] * d.z);
-      };
-      for (const BasisDirection& basis : fed.directions) add(basis.direction);
-      add(point.normal);
-      const std::vector<Vec3> values = irradiance(light, point.frame[2], world);
-      const auto put = [&](SpherePicture& picture, const Vec3& colour) {
-        for (std::size_t c = 0; c < 3; ++c) picture.pixels.texel(column, row)[c] = colour[int(c)];
-      };
-      put(pictures.front(), values.back());
-      const std::vector<Vec3> decoded =
-          study.decoded(std::span(values).first(fed.directions.size()), point.normal);
-      for (std::size_t i = 0; i < shown.size(); ++i) put(pictures[i + 1], decoded[shown[i]]);
+      for (const BasisDirection& basis : fed.directions) world.push_back(point.frame.stored(basis.direction));
+      world.push_back(point.frame.stored(point.normal));
+      const std::vector<Vec3> values = irradiance(light, point.frame.normal, world);
+      const auto at_fed = std::span(values).first(fed.directions.size());
+      set_vec3(pictures.front().pixels, column, row, values.back());
+      for (std::size_t i = 0; i < shown.size(); ++i)
+        set_vec3(pictures[i + 1].pixels, column, row, study.decoded(shown[i], at_fed, point.normal));
     }
   });
   const std::vector<float>& truth = pictures.front().pixels.data();
