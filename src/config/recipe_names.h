@@ -1,8 +1,11 @@
-// config/recipe_names.h - recipes and reference models as text: in settings, manifests, headers, folders,
-// reports.
+// config/recipe_names.h - recipes, reference models and sets of directions as text: in settings, manifests,
+// headers, folders, reports.
 #pragma once
 
 #include "config/bake_settings.h"
+
+#include <array>
+#include <cstddef>
 
 namespace rnmbake {
 
@@ -15,6 +18,13 @@ inline constexpr const char* flat_normal_map_name =
 
 [[nodiscard]] constexpr const char* name_of(ReferenceSettings::Model model) {
   return model == ReferenceSettings::Model::truth ? "true" : flat_normal_map_name;
+}
+
+/// In the order of BakingSettings::DirectionSet.
+inline constexpr std::array direction_set_names{"rnm", "l1", "h6", "sg", "sh3", "study"};
+
+[[nodiscard]] constexpr const char* name_of(BakingSettings::DirectionSet set) {
+  return direction_set_names[static_cast<std::size_t>(set)];
 }
 
 }  // namespace rnmbake

@@ -31,7 +31,7 @@ Spelling spelling(BakingSettings::Recipe) {
   return {name_of(BakingSettings::Recipe::receiver), name_of(BakingSettings::Recipe::flat_normal_map)};
 }
 Spelling spelling(BakingSettings::DirectionSet) {
-  return {"rnm", "l1", "h6", "sg", "sh3", "study"};
+  return {direction_set_names.begin(), direction_set_names.end()};
 }
 Spelling spelling(BakingSettings::Dispatch) {
   return {"auto", "basis", "object", "scene"};
@@ -219,8 +219,7 @@ std::vector<Setting> make_settings_table() {
           .empty_means("flat and the three vectors of RNM"),
       bake("basis_set", &Bake::basis_set,
            "directions to bake for encodings that want more than RNM's (rnmbake convert --to h6, sg, sh3), "
-           "or to "
-           "study encodings at (rnmbake study)"),
+           "or to study encodings at (rnmbake study)"),
       bake("recipe", &Bake::recipe, "receiver is exact; flat-normal-map is the published recipe, uncorrected")
           .only({Purpose::bake}),
       bake("correct_bump", &Bake::correct_bump,

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/read_file.h"
 #include "config/parse_toml.h"
+#include "config/recipe_names.h"
 #include "encoding/direction_sets.h"
 
 #include <algorithm>
@@ -52,14 +53,7 @@ BasisDirection basis_of(const std::filesystem::path& file, const toml::node& nod
 }
 
 BasisSet set_of(BakingSettings::DirectionSet chosen) {
-  using enum BakingSettings::DirectionSet;
-  if (chosen == rnm) return rnm_set();
-  const char* name = chosen == l1    ? "l1"
-                     : chosen == h6  ? "h6"
-                     : chosen == sg  ? "sg"
-                     : chosen == sh3 ? "sh3"
-                                     : "study";
-  return direction_set(name).value();
+  return chosen == BakingSettings::DirectionSet::rnm ? rnm_set() : direction_set(name_of(chosen)).value();
 }
 
 }  // namespace
@@ -77,13 +71,14 @@ BasisFile read_basis_file(const std::filesystem::path& file) {
   return result;
 }
 
+BasisSet read_basis_set(const std::filesystem::path& file) {
+  BasisFile read = read_basis_file(file);
+  for (const std::string& warning : read.warnings) log::warn("{}", warning);
+  return std::move(read.set);
+}
+
 std::vector<BasisDirection> choose_bases(const BakingSettings& settings) {
-  BasisSet set = set_of(settings.basis_set);
-  if (!settings.basis.empty()) {
-    BasisFile file = read_basis_file(settings.basis);
-    for (const std::string& warning : file.warnings) log::warn("{}", warning);
-    set = std::move(file.set);
-  }
+  const BasisSet set = settings.basis.empty() ? set_of(settings.basis_set) : read_basis_set(settings.basis);
   if (settings.bases.empty()) return set.directions;
   std::vector<BasisDirection> known = set.directions;
   if (std::ranges::count(known, flat_direction().name, &BasisDirection::name) == 0)

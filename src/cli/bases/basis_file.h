@@ -20,6 +20,9 @@ struct BasisFile {
 /// does not parse, holds another key or a direction that check_basis() rejects.
 [[nodiscard]] BasisFile read_basis_file(const std::filesystem::path& file);
 
+/// Its directions; logs the warnings.
+[[nodiscard]] BasisSet read_basis_set(const std::filesystem::path& file);
+
 /// The directions that --bases and --basis choose. Logs a file's warnings. Throws as read_basis_file(), and
 /// Error(usage) where the file does not have a name.
 [[nodiscard]] std::vector<BasisDirection> choose_bases(const BakingSettings& settings);

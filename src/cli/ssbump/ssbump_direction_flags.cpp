@@ -1,5 +1,4 @@
 #include "base/error.h"
-#include "base/log.h"
 #include "base/text.h"
 #include "cli/bases/basis_file.h"
 #include "cli/ssbump/ssbump_flags.h"
@@ -19,10 +18,9 @@ BasisSet set_of_words(const std::string& words) {
   if (!std::filesystem::exists(words))
     fail(ExitCode::usage, "--basis-set {} is no set and no file; give rnm, l1, h6, sg, sh3 or a basis file",
          words);
-  BasisFile file = read_basis_file(words);
-  for (const std::string& warning : file.warnings) log::warn("{}", warning);
-  file.set.name = std::filesystem::path(words).filename().string();
-  return std::move(file.set);
+  BasisSet set = read_basis_set(words);
+  set.name = std::filesystem::path(words).filename().string();
+  return set;
 }
 
 }  // namespace
