@@ -103,9 +103,9 @@ std::string page_with(const Report& report, const Limits& limits, int view_limit
   json pictures{{"objects", add_maps(report, limits, blobs)},
                 {"views", add_views(report, view_limit, blobs)}};
   return filled(embedded_files(embedded_report(), "page.html"),
-                {{"title", escaped(report.title)},
+                {{"head", page_head(report.title, "")},
+                 {"title", escaped(report.title)},
                  {"finding", unbroken(escaped(report.finding))},
-                 {"style", embedded_files(embedded_report(), ".css")},
                  {"report", for_script(report_document(report))},
                  {"pictures", for_script(pictures)},
                  {"blobs", blobs.text()},

@@ -57,6 +57,12 @@ std::string embedded_files(const EmbeddedFiles& files, std::string_view ending) 
   return text;
 }
 
+std::string page_head(std::string_view title, const std::string& images) {
+  return filled(
+      embedded_files(embedded_report(), "head.html"),
+      {{"title", escaped(title)}, {"images", images}, {"style", embedded_files(embedded_report(), ".css")}});
+}
+
 std::string unbroken(std::string text) {
   for (auto at = text.find(" %"); at != std::string::npos; at = text.find(" %", at))
     text.replace(at, 1, "\u00a0");

@@ -22,6 +22,10 @@ namespace rnmbake {
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::vector<std::pair<std::string, std::string>>& parts);
 
+/// The head of a page, to be filled in as {{head}}. `images`: what the page's policy adds for pictures, with
+/// "; " at its end, or "".
+[[nodiscard]] std::string page_head(std::string_view title, const std::string& images);
+
 /// Text of all embedded files whose names end so, in their order.
 [[nodiscard]] std::string embedded_files(const EmbeddedFiles& files, std::string_view ending);
 

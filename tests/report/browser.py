@@ -6,8 +6,10 @@ from pathlib import Path
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+import unittest
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 LIMIT_SECONDS = 60
@@ -17,6 +19,13 @@ def find():
     """The browser's path, or None. RNMBAKE_CHROMIUM names another."""
     named = os.environ.get("RNMBAKE_CHROMIUM")
     return named or next((path for path in map(shutil.which, NAMES) if path), None)
+
+
+def require():
+    """For setUpModule: leaves the tests out, and says so, where there is none."""
+    if not find():
+        print("SKIPPED: no Chromium to look at pages with; install the package chromium", file=sys.stderr)
+        raise unittest.SkipTest("SKIPPED: no Chromium")
 
 
 class Browser:
