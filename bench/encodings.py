@@ -85,8 +85,8 @@ def findings(figures):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out" / "encodings")
-    parser.add_argument("--resolution", default="64")
-    parser.add_argument("--error", default="1", help="percent of an object's mean")
+    parser.add_argument("--resolution", default="16")
+    parser.add_argument("--error", default="3", help="percent of an object's mean")
     parser.add_argument("--probes", type=pathlib.Path, nargs="+", metavar="FILE", help="only these probes (.hdr)")
     args = parser.parse_args()
     if args.probes:

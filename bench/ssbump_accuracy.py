@@ -108,10 +108,19 @@ class Figures:
         return "\n" + self.held() + "".join(map(self.horizons, BORDERS)) + self.rays() + self.forms() + self.seam()
 
 
-def measure(options, others):
+def measured(description, bench):
+    """The rows that a bench over height maps prints now, or printed once (--measured)."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bench", type=Path, default=ROOT / "build/release" / bench)
+    parser.add_argument("--heightmaps", type=Path, default=ROOT / "../shared/heightmaps")
+    parser.add_argument("--measured", type=Path)
+    options, others = parser.parse_known_args()
+    printed = options.measured.read_text(encoding="utf-8") if options.measured else run(options, others)
+    return [json.loads(line) for line in printed.splitlines()]
+
+
+def run(options, others):
     command = [options.bench, *others]
-    if options.settings:
-        command += ["--settings", options.settings]
     if options.heightmaps.is_dir():
         command += ["--heightmaps", options.heightmaps]
     else:
@@ -120,15 +129,7 @@ def measure(options, others):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench_ssbump_accuracy")
-    parser.add_argument("--heightmaps", type=Path, default=ROOT / "../shared/heightmaps")
-    parser.add_argument("--settings")
-    parser.add_argument("--measured", type=Path)
-    options, others = parser.parse_known_args()
-    printed = options.measured.read_text(encoding="utf-8") if options.measured else measure(options, others)
-    figures = Figures([json.loads(line) for line in printed.splitlines()])
-    document.renew(DOCUMENT, figures.text())
+    document.renew(DOCUMENT, Figures(measured(__doc__, "bench_ssbump_accuracy")).text())
 
 
 if __name__ == "__main__":

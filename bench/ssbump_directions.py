@@ -5,14 +5,9 @@
 
 Other arguments go on to the bench. --measured takes what an earlier run printed instead of measuring.
 """
-import argparse
-import json
-import subprocess
-from pathlib import Path
-
 import document
 from measure import ROOT
-from ssbump_accuracy import table
+from ssbump_accuracy import measured, table
 
 DOCUMENT = ROOT / "docs/ssbump-methods.md"
 
@@ -45,23 +40,8 @@ def text(rows):
     return "\n" + table(head, lines)
 
 
-def measure(options, others):
-    command = [options.bench, *others]
-    if options.heightmaps.is_dir():
-        command += ["--heightmaps", options.heightmaps]
-    else:
-        print(f"{options.heightmaps} IS NOT THERE: without the real maps")
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench_ssbump_directions")
-    parser.add_argument("--heightmaps", type=Path, default=ROOT / "../shared/heightmaps")
-    parser.add_argument("--measured", type=Path)
-    options, others = parser.parse_known_args()
-    printed = options.measured.read_text(encoding="utf-8") if options.measured else measure(options, others)
-    document.renew(DOCUMENT, text([json.loads(line) for line in printed.splitlines()]), "directions")
+    document.renew(DOCUMENT, text(measured(__doc__, "bench_ssbump_directions")), "directions")
 
 
 if __name__ == "__main__":
