@@ -12,6 +12,9 @@
 
 namespace rnmbake {
 
+/// Of one volume; more are a slip of the keyboard.
+inline constexpr int most_probes = 4'000'000;
+
 /// A box of probes, not necessarily along the world's axes. World space.
 struct ProbeGrid {
   std::array<int, 3> counts{1, 1, 1};

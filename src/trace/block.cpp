@@ -135,6 +135,8 @@ void BlockGatherer::sample_lamps(std::size_t i, std::size_t index, std::uint64_t
     start_sample(slot, index, sampler);
     const LightSample light = scene_.lights().sample(it.origin, horizon(slot), sampler.next3());
     if (!(light.pdf > 0)) continue;
+    const bool is_lamp = !light.bsdf_can_hit;
+    if (is_lamp ? !options_.direct.lamps : !options_.direct.glow) continue;
     if (!(light.direction.dot(it.point.face) > grazing_sine)) {
       if (recipe_ && recipe_->faults().below_horizon) add_below(slot, light);
       continue;
@@ -196,11 +198,13 @@ void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
   const Ray ray{origin, direction, infinity};
   ++rays_;
   const PathHit end = trace_through(scene_, ray, sampler, [&](const Hit& hit, const Vec3& radiance) {
+    if (!options_.direct.glow) return;
     const float light_pdf =
         scene_.lights().triangle_pdf(origin, horizon(i), hit.triangle, direction, hit.distance);
     add(i, direction, radiance * (bsdf_weight(light_pdf) / pdf));
   });
   if (!end.met) {
+    if (!options_.direct.glow) return;
     const float light_pdf = scene_.lights().world_pdf(origin, horizon(i), direction);
     add(i, direction, scene_.lights().world(direction) * (bsdf_weight(light_pdf) / pdf) * end.weight());
     return;

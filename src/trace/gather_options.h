@@ -33,6 +33,12 @@ struct RecipeFaults {
   }
 };
 
+/// Light that arrives without having been reflected.
+struct DirectLight {
+  bool lamps = true;  // point, spot, area, sun
+  bool glow = true;   // emissive surfaces and the sky
+};
+
 struct GatherTarget {
   const Surface* surface = nullptr;
   std::size_t object = 0;  // index into SceneSurvey::objects
@@ -52,7 +58,8 @@ struct GatherOptions {
   int threads = 0;  // 0: all cores
   bool sample_lights = true,
        sample_bsdf = true;  // strategies that MIS combines; off only in tests of the other
-  bool reuse = true;        // texels share the vertices of their paths (trace/block.h)
+  DirectLight direct;
+  bool reuse = true;  // texels share the vertices of their paths (trace/block.h)
   RecipeFaults faults;
   std::string blender_version;  // whose faults
 };
