@@ -95,13 +95,12 @@ std::size_t plan_once(const std::filesystem::path& survey_file, const std::files
     ReceiverPasses passes =
         make_receiver_passes(surface, bases, ObjectSettings::Horizon::identity, Vec2(side));
     laps.lap("receiver passes");
-    add_receiver_tasks(plan, i, target, std::move(passes), bases, {});
+    add_receiver_tasks(plan, plan_target(survey, target), std::move(passes), task_names(bases), {});
     laps.lap("crop");
   }
   group_tasks(plan, BakingSettings::Dispatch::scene);
   laps.lap("group");
-  const BakeContext context{survey, targets, bases, plan};
-  const BakeRequest request = receiver_request(context, plan.batches.front(), 1 << 24, folder);
+  const BakeRequest request = receiver_request(plan, plan.batches.front(), 1 << 24, folder);
   laps.lap("write arrays");
   for (const Target& target : targets) {
     const SceneObject& object = survey.objects[target.object];

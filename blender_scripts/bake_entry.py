@@ -16,7 +16,7 @@ from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
 from bake import fences, flat_normal_map, glow, own_shadow, receivers  # noqa: E402
 from opening import load  # noqa: E402
-from scene_ops import cycles, displacement  # noqa: E402
+from scene_ops import cycles, displacement, lamps  # noqa: E402
 
 
 def main(task):
@@ -24,13 +24,23 @@ def main(task):
     load.open_to_measure(task)
     displacement.settle()
     scene = bpy.context.scene
+    if not task.request["cycles"]["lamps"]:
+        lamps.put_out()
     if task.request["recipe"] == "receiver":
         glow.leave_large_emitters_to_chance()
-        glow.hide_from_own_receivers(task.request["glow_heights"])
-        own_shadow.block_light_from_below(scene)
-        fences.build(task, scene)
+        guard_faces(task, scene, task.request.get("guards"))
         return bake_receivers(task, scene)
     return flat_normal_map.bake_targets(task, scene)
+
+
+def guard_faces(task, scene, guards):
+    """What keeps light from below a face from the receivers on it. Receivers in free space have no guards, and must not: a
+    see-through or glowing face right beside them is another's, whose light is theirs."""
+    if guards is None:
+        return
+    glow.hide_from_own_receivers(guards["glow_heights"])
+    own_shadow.block_light_from_below(scene)
+    fences.build(task, scene, guards["fences"])
 
 
 def bake_receivers(task, scene):

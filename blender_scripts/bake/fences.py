@@ -15,11 +15,11 @@ GRAZING_SINE = 1e-6  # as in src/scene/surface.h
 UP = "rnmbake up"
 
 
-def build(task, scene):
-    count = task.request["fences"]["count"]
+def build(task, scene, fences):
+    count = fences["count"]
     if count == 0:
         return
-    with open(task.path(task.request["fences"]["arrays"]), "rb") as stream:
+    with open(task.path(fences["arrays"]), "rb") as stream:
         mesh = _mesh_of(stream, count)
     mesh.materials.append(_make_material())
     fence = bpy.data.objects.new(mesh.name, mesh)

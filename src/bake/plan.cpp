@@ -9,7 +9,7 @@ namespace rnmbake {
 namespace {
 
 /// Crops to whole texels around the UVs, one texel more on each side against rounding.
-AtlasRect crop(std::size_t target_index, const Target& target, ReceiverPass pass) {
+AtlasRect crop(std::size_t target, const RectSize& map, ReceiverPass pass) {
   Vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
   for (const ReceiverCorner& corner : pass.corners) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -23,35 +23,47 @@ AtlasRect crop(std::size_t target_index, const Target& target, ReceiverPass pass
   const auto above = [](float uv, int side) {
     return std::clamp(int(std::ceil(uv * float(side))) + 1, 1, side);
   };
-  AtlasRect rect{target_index, std::move(pass), below(low.x, target.width), below(low.y, target.height), {}};
-  rect.size = {above(high.x, target.width) - rect.x, above(high.y, target.height) - rect.y};
+  AtlasRect rect{target, std::move(pass), below(low.x, map.width), below(low.y, map.height), {}};
+  rect.size = {above(high.x, map.width) - rect.x, above(high.y, map.height) - rect.y};
   return rect;
 }
 
 }  // namespace
 
-void add_receiver_tasks(Plan& plan, std::size_t target_index, const Target& target, ReceiverPasses passes,
-                        const std::vector<BasisDirection>& bases, const CyclesSettings& cycles) {
-  const std::size_t first = plan.tasks.size();
-  for (std::size_t b = 0; b < bases.size(); ++b)
-    plan.tasks.push_back({target_index, bases[b].name, b, {}, cycles});
-  BakeTask horizon{target_index, "horizon", 0, {}, cycles};
+PlanTarget plan_target(const SceneSurvey& survey, const Target& target) {
+  return {target.key, {target.width, target.height}, survey.objects[target.object].light_group};
+}
+
+std::vector<std::string> task_names(const std::vector<BasisDirection>& bases) {
+  std::vector<std::string> names;
+  names.reserve(bases.size());
+  for (const BasisDirection& basis : bases) names.push_back("basis " + basis.name);
+  return names;
+}
+
+void add_receiver_tasks(Plan& plan, PlanTarget target, ReceiverPasses passes,
+                        const std::vector<std::string>& names, const CyclesSettings& cycles) {
+  const std::size_t index = plan.targets.size(), first = plan.tasks.size();
+  for (std::size_t b = 0; b < names.size(); ++b) plan.tasks.push_back({index, names[b], b, {}, cycles});
+  BakeTask horizon{index, "horizon", 0, {}, cycles};
   for (ReceiverPass& pass : passes.passes) {
     if (pass.corners.empty()) continue;
     BakeTask& task = pass.role == ReceiverPass::Role::moment ? horizon : plan.tasks[first + pass.basis];
     task.rects.push_back(plan.rects.size());
-    plan.rects.push_back(crop(target_index, target, std::move(pass)));
+    plan.rects.push_back(crop(index, target.map, std::move(pass)));
   }
   if (!horizon.rects.empty()) plan.tasks.push_back(std::move(horizon));
+  plan.targets.push_back(std::move(target));
 }
 
-void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target,
-                      const std::vector<BasisDirection>& bases, const CyclesSettings& cycles) {
-  for (std::size_t b = 0; b < bases.size(); ++b) {
-    plan.tasks.push_back({target_index, bases[b].name, b, {plan.rects.size()}, cycles});
-    plan.rects.push_back(
-        {target_index, {ReceiverPass::Role::basis, b, {}}, 0, 0, {target.width, target.height}});
+void add_object_tasks(Plan& plan, PlanTarget target, const std::vector<std::string>& names,
+                      const CyclesSettings& cycles) {
+  const std::size_t index = plan.targets.size();
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    plan.tasks.push_back({index, names[b], b, {plan.rects.size()}, cycles});
+    plan.rects.push_back({index, {ReceiverPass::Role::basis, b, {}}, 0, 0, target.map});
   }
+  plan.targets.push_back(std::move(target));
 }
 
 void group_tasks(Plan& plan, BakingSettings::Dispatch mode) {

@@ -7,9 +7,11 @@
 #include "bake/receiver.h"
 #include "bake/targets.h"
 #include "config/bake_settings.h"
+#include "scene/survey.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,14 +22,24 @@ struct CyclesSettings {
   int samples = 256, bounces = 32, seed = 0;
   double clamp = 0;
   std::string device = "CPU";
+  bool lamps = true;  // whether lamp objects give light
   bool operator==(const CyclesSettings&) const = default;
 };
+
+/// What gets pictures of its own: a target with a lightmap (bake/targets.h), or a block of points in free
+/// space.
+struct PlanTarget {
+  std::string key;          // in messages
+  RectSize map;             // texels
+  std::string light_group;  // of its object (scene/survey.h); "" in free space
+};
+[[nodiscard]] PlanTarget plan_target(const SceneSurvey& survey, const Target& target);
 
 /// A receiver pass cropped to the texels that it covers. Texel rows count from the bottom.
 struct AtlasRect {
   std::size_t target = 0;
   ReceiverPass pass;
-  int x = 0, y = 0;  // lower left texel within the target's lightmap
+  int x = 0, y = 0;  // lower left texel within the target's map
   RectSize size;
 };
 
@@ -35,7 +47,7 @@ struct AtlasRect {
 /// share, are a task of their own.
 struct BakeTask {
   std::size_t target = 0;
-  std::string name;                // of the basis, or "horizon"
+  std::string name;                // "basis flat", "horizon": what messages call it
   std::size_t basis = 0;           // index into the bases
   std::vector<std::size_t> rects;  // indices into Plan::rects
   CyclesSettings cycles;
@@ -46,22 +58,32 @@ struct Batch {
   std::vector<std::size_t> tasks;
 };
 
-struct Plan {
-  std::vector<AtlasRect> rects;
+/// What keeps light that comes from below a face from the receivers on it.
+struct FaceGuards {
   std::vector<std::vector<Fence>> fences;  // [targets], or none at all
   GlowHeights glow_heights;                // of all targets
+};
+
+struct Plan {
+  std::vector<PlanTarget> targets;
+  std::vector<AtlasRect> rects;
+  std::optional<FaceGuards> guards;  // absent: receivers stand in free space
   std::vector<BakeTask> tasks;
   std::vector<Batch> batches;
 };
 
-/// Crops the passes of one target and adds them as tasks. Passes without a texel are left out.
-void add_receiver_tasks(Plan& plan, std::size_t target_index, const Target& target, ReceiverPasses passes,
-                        const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
+/// Names of the tasks of each basis: "basis flat", ...
+[[nodiscard]] std::vector<std::string> task_names(const std::vector<BasisDirection>& bases);
 
-/// Tasks without receivers, for flat-normal-map: Blender bakes the object itself. One rectangle each, the
-/// whole lightmap.
-void add_object_tasks(Plan& plan, std::size_t target_index, const Target& target,
-                      const std::vector<BasisDirection>& bases, const CyclesSettings& cycles);
+/// Adds a target and, cropped, its passes as tasks, one for each of `names`. Passes without a texel are left
+/// out.
+void add_receiver_tasks(Plan& plan, PlanTarget target, ReceiverPasses passes,
+                        const std::vector<std::string>& names, const CyclesSettings& cycles);
+
+/// Adds a target with tasks without receivers, for flat-normal-map: Blender bakes the object itself. One
+/// rectangle each, the whole lightmap.
+void add_object_tasks(Plan& plan, PlanTarget target, const std::vector<std::string>& names,
+                      const CyclesSettings& cycles);
 
 /// Groups tasks into batches: one for each task, each target, or all that share their Cycles settings.
 void group_tasks(Plan& plan, BakingSettings::Dispatch mode);

@@ -58,9 +58,8 @@ std::string pixels_name(std::size_t picture) {
 /// UVs. Goes through the rectangles once for each, so that no second copy of them is held.
 class JoinedCorners {
  public:
-  void add(const AtlasRect& rect, const Target& target, const Placement& place) {
-    parts_.push_back({&rect.pass.corners,
-                      Vec2(static_cast<float>(target.width), static_cast<float>(target.height)),
+  void add(const AtlasRect& rect, const RectSize& map, const Placement& place) {
+    parts_.push_back({&rect.pass.corners, Vec2(static_cast<float>(map.width), static_cast<float>(map.height)),
                       Vec2(static_cast<float>(place.x - rect.x), static_cast<float>(place.y - rect.y))});
     count_ += rect.pass.corners.size();
   }
@@ -78,7 +77,7 @@ class JoinedCorners {
  private:
   struct Part {
     const std::vector<ReceiverCorner>* corners;
-    Vec2 size, shift;  // texels of the lightmap; from there to the atlas
+    Vec2 size, shift;  // texels of the map; from there to the atlas
   };
 
   template <typename T, typename Value>
@@ -109,15 +108,14 @@ json base_request(const Batch& batch, const Plan& plan, const char* recipe) {
 }
 
 /// Writes one atlas; receivers that share a light-linking group are one mesh.
-json write_atlas(const BakeContext& context, const BatchLayout& layout, std::size_t atlas,
-                 const fs::path& folder) {
+json write_atlas(const Plan& plan, const BatchLayout& layout, std::size_t atlas, const fs::path& folder) {
   const RectSize size = layout.atlas.atlases[atlas];
   std::map<std::string, std::vector<std::size_t>> by_group;  // light group -> positions in layout.rects
   std::int64_t texels = 0;
   for (std::size_t i = 0; i < layout.rects.size(); ++i) {
     if (layout.atlas.placements[i].atlas != atlas) continue;
-    const AtlasRect& rect = context.plan.rects[layout.rects[i]];
-    by_group[context.survey.objects[context.targets[rect.target].object].light_group].push_back(i);
+    const AtlasRect& rect = plan.rects[layout.rects[i]];
+    by_group[plan.targets[rect.target].light_group].push_back(i);
     texels += std::int64_t(rect.size.width) * rect.size.height;
   }
   const std::string arrays = "receivers" + std::to_string(atlas) + ".f32";
@@ -126,8 +124,8 @@ json write_atlas(const BakeContext& context, const BatchLayout& layout, std::siz
   for (const auto& [group, members] : by_group) {
     JoinedCorners joined;
     for (const std::size_t i : members) {
-      const AtlasRect& rect = context.plan.rects[layout.rects[i]];
-      joined.add(rect, context.targets[rect.target], layout.atlas.placements[i]);
+      const AtlasRect& rect = plan.rects[layout.rects[i]];
+      joined.add(rect, plan.targets[rect.target].map, layout.atlas.placements[i]);
     }
     joined.write(out, size);
     groups.push_back({{"corners", joined.count()}, {"light_group", group}});
@@ -138,14 +136,15 @@ json write_atlas(const BakeContext& context, const BatchLayout& layout, std::siz
 }
 
 /// The fences of all targets of a batch: their corners, then `up` once for each corner.
-json write_fences(const Batch& batch, const Plan& plan, const fs::path& folder) {
+json write_fences(const std::vector<std::vector<Fence>>& fences, const Batch& batch, const Plan& plan,
+                  const fs::path& folder) {
   std::set<std::size_t> targets;
-  if (!plan.fences.empty()) {
+  if (!fences.empty()) {
     for (const std::size_t task : batch.tasks) targets.insert(plan.tasks[task].target);
   }
   std::vector<Vec3> corners, ups;
   for (const std::size_t target : targets) {
-    for (const Fence& fence : plan.fences[target]) {
+    for (const Fence& fence : fences[target]) {
       corners.insert(corners.end(), fence.corners.begin(), fence.corners.end());
       ups.insert(ups.end(), 4, fence.up);
     }
@@ -224,25 +223,24 @@ std::vector<float> read_pixels(const fs::path& file, const RectSize& size) {
 }  // namespace
 
 nlohmann::json to_json(const CyclesSettings& settings) {
-  return {{"samples", settings.samples},
-          {"bounces", settings.bounces},
-          {"seed", settings.seed},
-          {"clamp", settings.clamp},
-          {"device", settings.device}};
+  return {{"samples", settings.samples}, {"bounces", settings.bounces}, {"seed", settings.seed},
+          {"clamp", settings.clamp},     {"device", settings.device},   {"lamps", settings.lamps}};
 }
 
-BakeRequest receiver_request(const BakeContext& context, const Batch& batch, std::int64_t max_pixels,
+BakeRequest receiver_request(const Plan& plan, const Batch& batch, std::int64_t max_pixels,
                              const fs::path& folder) {
-  BakeRequest request{base_request(batch, context.plan, name_of(BakingSettings::Recipe::receiver)),
-                      {rects_of(batch, context.plan), {}}};
-  request.json["glow_heights"] = context.plan.glow_heights;
-  request.json["fences"] = write_fences(batch, context.plan, folder);
+  BakeRequest request{base_request(batch, plan, name_of(BakingSettings::Recipe::receiver)),
+                      {rects_of(batch, plan), {}}};
+  if (plan.guards) {
+    request.json["guards"] = {{"glow_heights", plan.guards->glow_heights},
+                              {"fences", write_fences(plan.guards->fences, batch, plan, folder)}};
+  }
   std::vector<RectSize> sizes;
-  for (const std::size_t rect : request.layout.rects) sizes.push_back(context.plan.rects[rect].size);
+  for (const std::size_t rect : request.layout.rects) sizes.push_back(plan.rects[rect].size);
   request.layout.atlas = pack(sizes, max_pixels);
   request.json["atlases"] = json::array();
   for (std::size_t atlas = 0; atlas < request.layout.atlas.atlases.size(); ++atlas) {
-    request.json["atlases"].push_back(write_atlas(context, request.layout, atlas, folder));
+    request.json["atlases"].push_back(write_atlas(plan, request.layout, atlas, folder));
   }
   return request;
 }

@@ -20,7 +20,7 @@ struct BatchLayout {
   AtlasPlan atlas;                 // placements in the order of `rects`
 };
 
-/// Input of a request.
+/// What lightmaps are baked of, with their plan.
 struct BakeContext {
   const SceneSurvey& survey;
   const std::vector<Target>& targets;
@@ -35,8 +35,8 @@ struct BakeRequest {
 
 /// Receivers of all tasks, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
 /// positions, normals, UVs of each group of corners) into `folder`.
-[[nodiscard]] BakeRequest receiver_request(const BakeContext& context, const Batch& batch,
-                                           std::int64_t max_pixels, const std::filesystem::path& folder);
+[[nodiscard]] BakeRequest receiver_request(const Plan& plan, const Batch& batch, std::int64_t max_pixels,
+                                           const std::filesystem::path& folder);
 
 /// The published recipe: objects with their own materials. Writes unwrapped UVs and part lists into `folder`.
 [[nodiscard]] BakeRequest object_request(const BakeContext& context, const Batch& batch, bool correct_bump,

@@ -73,7 +73,8 @@ struct Scene {
     std::vector<BasisDirection> turned = bases;
     for (BasisDirection& basis : turned) basis.direction = in_frame(basis.direction, target);
     Plan plan;
-    add_receiver_tasks(plan, 0, target, make_receiver_passes(surface, turned, horizon), bases, {});
+    add_receiver_tasks(plan, planned(target), make_receiver_passes(surface, turned, horizon),
+                       task_names(bases), {});
     std::vector<const AtlasRect*> rects;
     std::vector<FloatImage> pictures;
     for (const AtlasRect& rect : plan.rects) {

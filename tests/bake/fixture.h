@@ -57,6 +57,10 @@ inline Target make_target(const std::string& key, int width, int height, std::si
   return target;
 }
 
+inline PlanTarget planned(const Target& target) {
+  return {target.key, {target.width, target.height}, ""};
+}
+
 /// A sheet of one triangle over the lower left half of the square [low, high]^2.
 inline ReceiverPass sheet_over(float low, float high, ReceiverPass::Role role = ReceiverPass::Role::basis,
                                std::size_t basis = 0) {

@@ -19,7 +19,7 @@ Plan plan_of(std::size_t targets, const std::vector<int>& samples = {16}) {
   for (std::size_t t = 0; t < targets; ++t) {
     CyclesSettings cycles;
     cycles.samples = samples[t % samples.size()];
-    add_receiver_tasks(plan, t, target, plain_sheets(4), flat_and_rnm().directions, cycles);
+    add_receiver_tasks(plan, planned(target), plain_sheets(4), task_names(flat_and_rnm().directions), cycles);
   }
   return plan;
 }
@@ -41,7 +41,7 @@ TEST(Crop, CoversTheUvsAndATexelMoreInsideTheMap) {
   const Target target = make_target("a", 100, 40);
   for (const auto& [low, high] : {std::pair{0.0F, 1.0F}, {0.31F, 0.52F}, {0.5F, 0.5001F}, {0.98F, 1.0F}}) {
     Plan plan;
-    add_receiver_tasks(plan, 0, target, plain_sheets(1, low, high), {flat_direction()}, {});
+    add_receiver_tasks(plan, planned(target), plain_sheets(1, low, high), {"flat"}, {});
     ASSERT_EQ(plan.rects.size(), 1U);
     const AtlasRect& rect = plan.rects[0];
     const int place[] = {rect.x, rect.y}, size[] = {rect.size.width, rect.size.height}, side[] = {100, 40};
@@ -62,11 +62,15 @@ TEST(Units, AreOneForEachBasisAndOneForTheHorizon) {
   for (std::size_t m = 0; m < 5; ++m)
     passes.passes.push_back(sheet_over(0, 0.5, ReceiverPass::Role::moment, m));
   Plan plan;
-  add_receiver_tasks(plan, 7, make_target("a", 64, 64), std::move(passes), flat_and_rnm().directions, {});
+  plan.targets.resize(7);
+  add_receiver_tasks(plan, planned(make_target("a", 64, 64)), std::move(passes),
+                     task_names(flat_and_rnm().directions), {});
+  ASSERT_EQ(plan.targets.size(), 8U);
+  EXPECT_EQ(plan.targets[7].key, "a");
   ASSERT_EQ(plan.tasks.size(), 5U);
   EXPECT_EQ(plan.rects.size(), 10U);
-  EXPECT_EQ(plan.tasks[0].name, "flat");
-  EXPECT_EQ(plan.tasks[3].name, "rnm2");
+  EXPECT_EQ(plan.tasks[0].name, "basis flat");
+  EXPECT_EQ(plan.tasks[3].name, "basis rnm2");
   EXPECT_EQ(plan.tasks[0].rects.size(), 1U);
   EXPECT_EQ(plan.tasks[2].rects.size(), 2U);  // what lies above and what lies below
   EXPECT_EQ(plan.tasks[4].name, "horizon");
@@ -78,8 +82,7 @@ TEST(Units, LeaveEmptySheetsOut) {
   ReceiverPasses passes = plain_sheets(2);
   passes.passes[1].corners.clear();
   Plan plan;
-  add_receiver_tasks(plan, 0, make_target("a", 8, 8), std::move(passes),
-                     {flat_direction(), rnm_set().directions[0]}, {});
+  add_receiver_tasks(plan, planned(make_target("a", 8, 8)), std::move(passes), {"flat", "rnm0"}, {});
   EXPECT_EQ(plan.rects.size(), 1U);
   ASSERT_EQ(plan.tasks.size(), 2U);
   EXPECT_TRUE(plan.tasks[1].rects.empty());
@@ -87,7 +90,7 @@ TEST(Units, LeaveEmptySheetsOut) {
 
 TEST(Units, OfObjectsAreWholeMaps) {
   Plan plan;
-  add_object_tasks(plan, 1, make_target("a", 24, 16), flat_and_rnm().directions, {});
+  add_object_tasks(plan, planned(make_target("a", 24, 16)), task_names(flat_and_rnm().directions), {});
   ASSERT_EQ(plan.tasks.size(), 4U);
   for (std::size_t b = 0; b < 4; ++b) {
     EXPECT_EQ(plan.tasks[b].basis, b);
@@ -127,16 +130,17 @@ TEST(Group, SceneJoinsWhatSharesItsSettings) {
 
 TEST(Group, EverySettingOfCyclesSeparates) {
   const CyclesSettings base;
-  std::vector<CyclesSettings> others(5, base);
+  std::vector<CyclesSettings> others(6, base);
   others[0].samples = 7;
   others[1].bounces = 7;
   others[2].seed = 7;
   others[3].clamp = 7;
   others[4].device = "CUDA";
+  others[5].lamps = false;
   for (const CyclesSettings& other : others) {
     Plan plan;
-    add_object_tasks(plan, 0, make_target("a", 8, 8), {flat_direction()}, base);
-    add_object_tasks(plan, 1, make_target("b", 8, 8), {flat_direction()}, other);
+    add_object_tasks(plan, planned(make_target("a", 8, 8)), {"flat"}, base);
+    add_object_tasks(plan, planned(make_target("b", 8, 8)), {"flat"}, other);
     group_tasks(plan, Mode::scene);
     EXPECT_EQ(plan.batches.size(), 2U);
   }

@@ -42,7 +42,8 @@ class Requests : public testing::Test {
 
   void add_all() {
     for (std::size_t t = 0; t < targets_.size(); ++t)
-      add_receiver_tasks(plan_, t, targets_[t], plain_sheets(4, 0.25F, 0.5F), bases_, {});
+      add_receiver_tasks(plan_, plan_target(survey_, targets_[t]), plain_sheets(4, 0.25F, 0.5F),
+                         task_names(bases_), {});
     group_tasks(plan_, BakingSettings::Dispatch::scene);
   }
   [[nodiscard]] BakeContext context() const { return {survey_, targets_, bases_, plan_}; }
@@ -56,7 +57,7 @@ class Requests : public testing::Test {
 
 TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
   EXPECT_EQ(request.json.at("recipe"), "receiver");
   EXPECT_EQ(request.json.at("cycles").at("samples"), 256);
   ASSERT_EQ(request.json.at("atlases").size(), 1U);
@@ -74,7 +75,7 @@ TEST_F(Requests, OfReceiversDescribeTheirArrays) {
 
 TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
   const auto& atlas = request.json["atlases"][0];
   const auto values = read_floats(folder_.path() / atlas.at("arrays"));
   const std::size_t corners = atlas["groups"][0].at("corners");
@@ -94,16 +95,18 @@ TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
 
 TEST_F(Requests, OfReceiversBringTheFencesOfTheirTargets) {
   add_all();
-  EXPECT_EQ(
-      receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path()).json.at("fences").at("count"),
-      0);
-  plan_.fences.resize(3);
-  plan_.fences[0].push_back(Fence{{Vec3(1), Vec3(2), Vec3(3), Vec3(4)}, Vec3(0, 0, 1)});
-  plan_.fences[2].push_back(Fence{{Vec3(5), Vec3(6), Vec3(7), Vec3(8)}, Vec3(1, 0, 0)});
+  plan_.guards.emplace();
+  const auto fences_of = [&](const Batch& batch) {
+    return receiver_request(plan_, batch, 1 << 20, folder_.path()).json.at("guards").at("fences");
+  };
+  EXPECT_EQ(fences_of(plan_.batches[0]).at("count"), 0);
+  plan_.guards->fences.resize(3);
+  plan_.guards->fences[0].push_back(Fence{{Vec3(1), Vec3(2), Vec3(3), Vec3(4)}, Vec3(0, 0, 1)});
+  plan_.guards->fences[2].push_back(Fence{{Vec3(5), Vec3(6), Vec3(7), Vec3(8)}, Vec3(1, 0, 0)});
   Batch last;  // of "lit" alone
   for (const std::size_t task : plan_.batches[0].tasks)
     if (plan_.tasks[task].target == 2) last.tasks.push_back(task);
-  const auto fences = receiver_request(context(), last, 1 << 20, folder_.path()).json.at("fences");
+  const auto fences = fences_of(last);
   EXPECT_EQ(fences.at("count"), 1);
   const auto values = read_floats(folder_.path() / fences.at("arrays"));
   ASSERT_EQ(values.size(), 24U);
@@ -120,18 +123,25 @@ TEST_F(Requests, OfReceiversSayHowHighTheyStandOverWhatGlows) {
   survey_.materials["lamp"].emissive = true;
   Surface surface;
   for (const float height : {1e-6F, 3e-6F, 2e-6F}) surface.triangles.emplace_back().height = height;
-  note_glow(plan_.glow_heights, survey_, 0, surface);
+  GlowHeights& heights = plan_.guards.emplace().glow_heights;
+  note_glow(heights, survey_, 0, surface);
   surface.triangles.resize(1);
-  note_glow(plan_.glow_heights, survey_, 1, surface);
-  note_glow(plan_.glow_heights, survey_, 2, surface);
+  note_glow(heights, survey_, 1, surface);
+  note_glow(heights, survey_, 2, surface);
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
-  EXPECT_EQ(request.json.at("glow_heights"), nlohmann::json({{"lamp", 3e-6F}}));
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
+  EXPECT_EQ(request.json.at("guards").at("glow_heights"), nlohmann::json({{"lamp", 3e-6F}}));
+}
+
+TEST_F(Requests, InFreeSpaceHaveNoGuards) {
+  add_all();
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
+  EXPECT_FALSE(request.json.contains("guards"));
 }
 
 TEST_F(Requests, ThatDoNotFitOneAtlasTakeSeveral) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 200, folder_.path());
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 200, folder_.path());
   const auto& atlases = request.json.at("atlases");
   ASSERT_GT(atlases.size(), 1U);
   EXPECT_EQ(atlases.size(), request.layout.atlas.atlases.size());
@@ -148,7 +158,8 @@ TEST_F(Requests, OfObjectsNameLayersPartsAndBakes) {
   targets_[1].part = {"red", {1}};
   targets_[2].unwrapped = true;
   targets_[2].uv = std::make_shared<const std::vector<Vec2>>(square_uv());
-  for (std::size_t t = 0; t < 3; ++t) add_object_tasks(plan_, t, targets_[t], bases_, {});
+  for (std::size_t t = 0; t < 3; ++t)
+    add_object_tasks(plan_, plan_target(survey_, targets_[t]), task_names(bases_), {});
   group_tasks(plan_, BakingSettings::Dispatch::scene);
   const BakeRequest request = object_request(context(), plan_.batches[0], true, folder_.path());
   EXPECT_EQ(request.json.at("recipe"), "flat-normal-map");
@@ -170,7 +181,7 @@ TEST_F(Requests, OfObjectsNameLayersPartsAndBakes) {
 
 TEST_F(Requests, GetTheirTilesBackTopRowFirst) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
   const RectSize size = request.layout.atlas.atlases[0];
   std::vector<float> pixels(std::size_t(size.width) * size.height * 4);
   for (int y = 0; y < size.height; ++y) {
@@ -198,7 +209,7 @@ TEST_F(Requests, GetTheirTilesBackTopRowFirst) {
 
 TEST_F(Requests, RefuseShortAndMissingPictures) {
   add_all();
-  const BakeRequest request = receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path());
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
   const auto read = [&] { (void)read_rects(request.layout, plan_, folder_.path()); };
   EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("pixels0.f32"), std::string::npos);
   const RectSize size = request.layout.atlas.atlases[0];
@@ -210,7 +221,7 @@ TEST_F(Requests, RefuseShortAndMissingPictures) {
 TEST_F(Requests, ThatCannotBeWrittenNameTheFile) {
   add_all();
   const auto text = error_of(ExitCode::io, [&] {
-    (void)receiver_request(context(), plan_.batches[0], 1 << 20, folder_.path() / "absent");
+    (void)receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path() / "absent");
   });
   EXPECT_NE(text.find("receivers0.f32"), std::string::npos) << text;
 }

@@ -5,7 +5,7 @@
 #include "blender/blender_session.h"
 #include "blender/launch.h"
 #include "config/resolve.h"
-#include "pipeline/bake/dispatcher.h"
+#include "pipeline/dispatch/dispatcher.h"
 #include "pipeline/lightmaps/bake_collector.h"
 
 #include <algorithm>
@@ -143,7 +143,7 @@ class Invented {
       passes.passes.push_back(
           {ReceiverPass::Role::basis, b, {{id, up, {0, 0}}, {id, up, {1, 0}}, {id, up, {1, 1}}}});
     }
-    add_receiver_tasks(plan_, index, target, std::move(passes), bases_, {});
+    add_receiver_tasks(plan_, plan_target(survey_, target), std::move(passes), task_names(bases_), {});
     targets_.push_back(std::move(target));
     LightmapHeader note;
     note.stem = name;

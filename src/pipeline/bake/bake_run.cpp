@@ -5,6 +5,8 @@
 #include "base/object_notes.h"
 #include "base/text.h"
 #include "config/recipe_names.h"
+#include "pipeline/dispatch/cycles_settings.h"
+#include "pipeline/dispatch/dispatcher.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/manifest.h"
 #include "pipeline/lightmaps/target_facts.h"
@@ -21,32 +23,9 @@
 namespace rnmbake {
 namespace {
 
-const char* name_of(BakingSettings::Device device) {
-  using Device = BakingSettings::Device;
-  switch (device) {
-    case Device::cpu:
-      return "CPU";
-    case Device::cuda:
-      return "CUDA";
-    case Device::optix:
-      return "OPTIX";
-    case Device::hip:
-      return "HIP";
-    case Device::metal:
-      return "METAL";
-    case Device::oneapi:
-      return "ONEAPI";
-  }
-  return "CPU";
-}
-
 const char* name_of(BakingSettings::Dispatch dispatch) {
   using Mode = BakingSettings::Dispatch;
   return dispatch == Mode::basis ? "basis" : dispatch == Mode::object ? "object" : "scene";
-}
-
-CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings& object) {
-  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
 }
 
 /// Footprint of a texel in that version's bakes (docs/accuracy.md).
@@ -105,15 +84,15 @@ bool plan_receivers(const BakeSettings& settings, const BakeSubject& subject, st
   const Vec2 map(float(target.width), float(target.height));
   ReceiverPasses passes = make_receiver_passes(surface, bases, object.horizon, map);
   Fences fences = make_fences(surface, lights, map);
-  planned.plan.fences[i] = std::move(fences.strips);
+  planned.plan.guards->fences[i] = std::move(fences.strips);
   if (fences.left_out > 0) planned.small.push_back(target.key);
-  note_glow(planned.plan.glow_heights, subject.survey, target.object, surface);
+  note_glow(planned.plan.guards->glow_heights, subject.survey, target.object, surface);
   planned.heights[i] = height_in_texels(surface, map);
   if (planned.heights[i] > coarse_height) planned.coarse.push_back({i, distance_of(surface)});
   planned.horizons[i] = passes.counts;
   const bool needs_identity = passes.passes.size() > bases.size();
-  add_receiver_tasks(planned.plan, i, target, std::move(passes), subject.bases,
-                     cycles_settings(settings.bake, object));
+  add_receiver_tasks(planned.plan, plan_target(subject.survey, target), std::move(passes),
+                     task_names(subject.bases), cycles_settings(settings.bake, object));
   return needs_identity;
 }
 
@@ -121,7 +100,7 @@ void plan_target(const BakeSettings& settings, const BakeSubject& subject, std::
                  const std::vector<LightBall>& lights, PlannedBake& planned, LostDirections& lost) {
   const Target& target = subject.list.targets[i];
   if (!by_receiver(settings)) {
-    add_object_tasks(planned.plan, i, target, subject.bases,
+    add_object_tasks(planned.plan, plan_target(subject.survey, target), task_names(subject.bases),
                      cycles_settings(settings.bake, subject.list.settings[i]));
     if (!settings.output.frames) return;
   }
@@ -169,7 +148,7 @@ void warn_of_shadowless(const std::vector<LightInfo>& lights) {
 PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, const BlenderInfo& blender) {
   const TargetList& list = subject.list;
   PlannedBake planned;
-  planned.plan.fences.resize(list.targets.size());
+  if (by_receiver(settings)) planned.plan.guards.emplace().fences.resize(list.targets.size());
   planned.horizons.resize(list.targets.size());
   planned.heights.resize(list.targets.size());
   const std::vector<LightBall> lights = light_balls(subject.survey);
@@ -188,6 +167,14 @@ PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, 
   warn_of_small(planned.small);
   if (by_receiver(settings)) warn_of_shadowless(subject.survey.lights);
   return planned;
+}
+
+/// Requests of the recipe.
+MakeRequest requests(const BakeSettings& settings, const BakeContext& context) {
+  if (by_receiver(settings)) return receiver_requests(settings, context.survey, context.plan);
+  return [&](const Batch& batch, int /*jobs*/, const std::filesystem::path& folder) {
+    return object_request(context, batch, settings.bake.correct_bump, folder);
+  };
 }
 
 /// The scene with its UVs, and the manifest.
@@ -215,7 +202,8 @@ BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
             blender.version_text);
   BakeCollector collector(context, settings.output, planned.headers);
   BakeOutcome outcome;
-  outcome.timings = run_batches(session, context, subject.blends.shown, collector);
+  outcome.timings =
+      run_batches(session, planned.plan, subject.blends.shown, requests(settings, context), collector);
   outcome.deliveries = collector.deliveries();
   if (may_be_lit(subject.survey)) warn_of_black(targets, outcome.deliveries);
   write_records(session, subject, planned, outcome);

@@ -3,7 +3,7 @@
 
 #include "blender/blender_session.h"
 #include "encoding/basis_set.h"
-#include "pipeline/bake/dispatcher.h"
+#include "pipeline/dispatch/bake_timings.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
 #include "pipeline/scene/make_targets.h"

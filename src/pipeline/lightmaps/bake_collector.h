@@ -5,6 +5,7 @@
 #include "bake/plan.h"
 #include "bake/request.h"
 #include "config/bake_settings.h"
+#include "pipeline/dispatch/picture_sink.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 
 #include <map>
@@ -16,18 +17,15 @@ namespace rnmbake {
 
 /// Thread-safe. Throws Error(io) where a file cannot be written: the remaining targets would meet the same
 /// disk.
-class BakeCollector {
+class BakeCollector : public PictureSink {
  public:
   BakeCollector(const BakeContext& context, const OutputSettings& output,
                 std::vector<LightmapHeader> headers);
 
-  /// Takes the pictures of a batch (in the layout's order); writes each target that became complete.
-  void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures);
-
-  /// Gives a target up; later pictures of it are discarded.
-  void give_up(std::size_t target, const std::string& reason);
-
-  [[nodiscard]] bool is_settled(std::size_t target) const;
+  /// Writes each target that became complete.
+  void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) override;
+  void give_up(std::size_t target, const std::string& reason) override;
+  [[nodiscard]] bool is_settled(std::size_t target) const override;
   [[nodiscard]] const std::vector<Delivery>& deliveries() const { return deliveries_; }
 
  private:

@@ -4,7 +4,7 @@
 
 #include "bake/receiver.h"
 #include "bake/targets.h"
-#include "pipeline/lightmaps/bake_timings.h"
+#include "pipeline/dispatch/bake_timings.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
 #include "pipeline/lightmaps/manifest_file.h"

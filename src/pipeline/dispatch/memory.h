@@ -1,8 +1,9 @@
-// pipeline/bake/memory.h - limits of memory and of atlas pixels on this machine.
+// pipeline/dispatch/memory.h - limits of memory and of atlas pixels on this machine.
 #pragma once
 
-#include "bake/request.h"
+#include "bake/plan.h"
 #include "config/bake_settings.h"
+#include "scene/survey.h"
 
 #include <cstdint>
 
@@ -13,7 +14,7 @@ namespace rnmbake {
 
 /// Pixels of one atlas of a batch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
 /// and less where one bake call would take more than several minutes.
-[[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context,
-                                            const Batch& batch, int jobs);
+[[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const SceneSurvey& survey,
+                                            const Plan& plan, const Batch& batch, int jobs);
 
 }  // namespace rnmbake

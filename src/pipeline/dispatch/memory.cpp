@@ -1,4 +1,4 @@
-#include "pipeline/bake/memory.h"
+#include "pipeline/dispatch/memory.h"
 
 #include <algorithm>
 #include <fstream>
@@ -34,20 +34,19 @@ std::int64_t memory_budget(const BakeSettings& settings) {
   return available_memory() * 7 / 10;
 }
 
-std::int64_t atlas_pixels_for(const BakeSettings& settings, const BakeContext& context, const Batch& batch,
-                              int jobs) {
+std::int64_t atlas_pixels_for(const BakeSettings& settings, const SceneSurvey& survey, const Plan& plan,
+                              const Batch& batch, int jobs) {
   std::int64_t receiver_corners = 0;
   for (const std::size_t task : batch.tasks) {
-    for (const std::size_t rect : context.plan.tasks[task].rects) {
-      receiver_corners += static_cast<std::int64_t>(context.plan.rects[rect].pass.corners.size());
+    for (const std::size_t rect : plan.tasks[task].rects) {
+      receiver_corners += static_cast<std::int64_t>(plan.rects[rect].pass.corners.size());
     }
   }
-  const std::int64_t samples = context.plan.tasks[batch.tasks.front()].cycles.samples;
+  const std::int64_t samples = plan.tasks[batch.tasks.front()].cycles.samples;
   const std::int64_t patience =
       std::max<std::int64_t>(work_per_call / std::max<std::int64_t>(samples, 1), 1 << 18);
   const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);
-  return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles(context.survey),
-                      receiver_corners / 3);
+  return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles(survey), receiver_corners / 3);
 }
 
 }  // namespace rnmbake

@@ -1,4 +1,4 @@
-#include "pipeline/bake/dispatcher.h"
+#include "pipeline/dispatch/dispatcher.h"
 
 #include "base/error.h"
 #include "pipeline/fixture.h"
@@ -19,7 +19,10 @@ struct Bake {
         session(scene.config(), blender),
         collector(context, scene.settings().output, scene.headers()) {}
 
-  BakeTimings run() { return run_batches(session, context, BlendPath("scene.blend"), collector); }
+  BakeTimings run() {
+    const auto requests = receiver_requests(scene.settings(), context.survey, context.plan);
+    return run_batches(session, context.plan, BlendPath("scene.blend"), requests, collector);
+  }
 
   Invented scene;
   BakeContext context;

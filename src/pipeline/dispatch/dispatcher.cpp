@@ -1,10 +1,10 @@
-#include "pipeline/bake/dispatcher.h"
+#include "pipeline/dispatch/dispatcher.h"
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/work_progress.h"
 #include "blender/launch_watch.h"
-#include "pipeline/bake/memory.h"
+#include "pipeline/dispatch/memory.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
@@ -56,14 +56,16 @@ double total_work(const Plan& plan) {
 
 class Dispatcher {
  public:
-  Dispatcher(BlenderSession& session, const BakeContext& context, BlendPath blend, BakeCollector& collector)
+  Dispatcher(BlenderSession& session, const Plan& plan, BlendPath blend, const MakeRequest& make_request,
+             PictureSink& sink)
       : session_(session),
-        context_(context),
+        plan_(plan),
         blend_(std::move(blend)),
-        collector_(collector),
-        jobs_(choose_jobs(session.settings(), context.plan.batches.size())),
-        progress_(total_work(context.plan)) {
-    for (const Batch& batch : context.plan.batches) {
+        make_request_(make_request),
+        sink_(sink),
+        jobs_(choose_jobs(session.settings(), plan.batches.size())),
+        progress_(total_work(plan)) {
+    for (const Batch& batch : plan.batches) {
       queue_.push_back({batch, session.settings().run.retries});
     }
   }
@@ -123,7 +125,7 @@ class Dispatcher {
     launch.scene = blend_;
     launch.folder = session_.new_folder("bake");
     launch.threads = session_.threads(jobs_);
-    BakeRequest request = make_request(attempt.batch, launch.folder);
+    BakeRequest request = make_request_(attempt.batch, jobs_, launch.folder);
     launch.request = std::move(request.json);
     launch.request.update(scene_request(session_, blend_.path()));
     const LaunchOutcome outcome = session_.blender().run(
@@ -133,7 +135,7 @@ class Dispatcher {
     } else if (auto rects = rects_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&rects)) {
       recover(std::move(attempt), *lost);
     } else {
-      collector_.take(attempt.batch, request.layout, std::get<0>(std::move(rects)));
+      sink_.take(attempt.batch, request.layout, std::get<0>(std::move(rects)));
       count(attempt.batch, std::get<Finished>(outcome));
     }
     if (!session_.settings().output.keep_temporary) fs::remove_all(launch.folder);
@@ -144,7 +146,7 @@ class Dispatcher {
   std::variant<std::vector<FloatImage>, LaunchFailure> rects_of(const BatchLayout& layout,
                                                                 const fs::path& folder) const {
     try {
-      return read_rects(layout, context_.plan, folder);
+      return read_rects(layout, plan_, folder);
     } catch (const Error& error) {
       LaunchFailure failure;
       failure.message = error.what();
@@ -152,18 +154,9 @@ class Dispatcher {
     }
   }
 
-  BakeRequest make_request(const Batch& batch, const fs::path& folder) const {
-    const BakeSettings& settings = session_.settings();
-    if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map) {
-      return object_request(context_, batch, settings.bake.correct_bump, folder);
-    }
-    return receiver_request(context_, batch, atlas_pixels_for(settings, context_, batch, jobs_), folder);
-  }
-
   /// Removes tasks of targets that were given up.
   void drop_settled(Batch& batch) const {
-    std::erase_if(batch.tasks,
-                  [&](std::size_t task) { return collector_.is_settled(context_.plan.tasks[task].target); });
+    std::erase_if(batch.tasks, [&](std::size_t task) { return sink_.is_settled(plan_.tasks[task].target); });
   }
 
   void recover(Attempt attempt, const LaunchFailure& failure) {
@@ -173,15 +166,15 @@ class Dispatcher {
     note_failure(failure);
     if (given_up(attempt.batch)) return;
     if (attempt.batch.tasks.size() > 1 && !is_before_baking(failure)) return divide(attempt, failure);
-    const BakeTask& task = context_.plan.tasks[attempt.batch.tasks.front()];
+    const BakeTask& task = plan_.tasks[attempt.batch.tasks.front()];
     const bool may_differ =
         failure.kind != LaunchFailure::Kind::refused && failure.kind != LaunchFailure::Kind::outlasted;
     if (may_differ && attempt.retries_left > 0) {
-      log::warn("{} ({}): {}; trying again", context_.targets[task.target].key, task.name, describe(failure));
+      log::warn("{} ({}): {}; trying again", plan_.targets[task.target].key, task.name, describe(failure));
       enqueue({std::move(attempt.batch), attempt.retries_left - 1});
       return;
     }
-    give_up(attempt.batch, fmt::format("basis {}: {}", task.name, describe(failure)));
+    give_up(attempt.batch, fmt::format("{}: {}", task.name, describe(failure)));
   }
 
   /// Whether the failure (a stop, a full disk, a missing device) would end every other launch, too.
@@ -193,7 +186,7 @@ class Dispatcher {
 
   void divide(const Attempt& attempt, const LaunchFailure& failure) {
     log::warn("{}; splitting {} bakes to find the offender", describe(failure), attempt.batch.tasks.size());
-    for (Batch& half : split(attempt.batch, context_.plan)) enqueue({std::move(half), attempt.retries_left});
+    for (Batch& half : split(attempt.batch, plan_)) enqueue({std::move(half), attempt.retries_left});
   }
 
   void note_failure(const LaunchFailure& failure) {
@@ -217,7 +210,7 @@ class Dispatcher {
   }
 
   void give_up(const Batch& batch, const std::string& reason) {
-    for (const std::size_t task : batch.tasks) collector_.give_up(context_.plan.tasks[task].target, reason);
+    for (const std::size_t task : batch.tasks) sink_.give_up(plan_.tasks[task].target, reason);
   }
 
   /// Appends to the queue: retries run last, since a first success elsewhere shows that the scene is sound.
@@ -239,18 +232,19 @@ class Dispatcher {
         timings_.save_seconds += lap.value("save_seconds", 0.0);
       }
     }
-    progress_.finish(batch.tasks.front(), work_of(batch, context_.plan));
+    progress_.finish(batch.tasks.front(), work_of(batch, plan_));
   }
 
   void show(const Batch& batch, const ProgressEvent& event) {
-    const double done = event.total > 0 ? work_of(batch, context_.plan) * event.done / event.total : 0;
+    const double done = event.total > 0 ? work_of(batch, plan_) * event.done / event.total : 0;
     progress_.advance(batch.tasks.front(), done, in_words(event));
   }
 
   BlenderSession& session_;
-  const BakeContext& context_;
+  const Plan& plan_;
   BlendPath blend_;
-  BakeCollector& collector_;
+  const MakeRequest& make_request_;
+  PictureSink& sink_;
   int jobs_;
 
   std::mutex mutex_;
@@ -272,9 +266,15 @@ int choose_jobs(const BakeSettings& settings, std::size_t batches) {
   return std::clamp(static_cast<int>(batches), 1, wanted);
 }
 
-BakeTimings run_batches(BlenderSession& session, const BakeContext& context, const BlendPath& blend,
-                        BakeCollector& collector) {
-  return Dispatcher(session, context, blend, collector).run();
+MakeRequest receiver_requests(const BakeSettings& settings, const SceneSurvey& survey, const Plan& plan) {
+  return [&](const Batch& batch, int jobs, const fs::path& folder) {
+    return receiver_request(plan, batch, atlas_pixels_for(settings, survey, plan, batch, jobs), folder);
+  };
+}
+
+BakeTimings run_batches(BlenderSession& session, const Plan& plan, const BlendPath& blend,
+                        const MakeRequest& make_request, PictureSink& sink) {
+  return Dispatcher(session, plan, blend, make_request, sink).run();
 }
 
 }  // namespace rnmbake

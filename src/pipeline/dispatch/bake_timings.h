@@ -1,4 +1,4 @@
-// pipeline/lightmaps/bake_timings.h - time and memory of a bake's launches.
+// pipeline/dispatch/bake_timings.h - time and memory of a bake's launches.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,33 @@
+// pipeline/dispatch/picture_sink.h - where the pictures of launches go.
+#pragma once
+
+#include "bake/plan.h"
+#include "bake/request.h"
+#include "image/float_image.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// Makes what is wanted of baked pictures. Called by several threads. A target is *settled* once it was
+/// delivered or given up: its remaining tasks need not be baked.
+class PictureSink {
+ public:
+  PictureSink() = default;
+  PictureSink(const PictureSink&) = delete;
+  PictureSink& operator=(const PictureSink&) = delete;
+  virtual ~PictureSink() = default;
+
+  /// Takes the pictures of a batch, in the layout's order: RGBA, E/pi, row 0 on top, alpha = coverage. What
+  /// it throws ends the run.
+  virtual void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) = 0;
+
+  /// Gives a target up; later pictures of it are discarded.
+  virtual void give_up(std::size_t target, const std::string& reason) = 0;
+
+  [[nodiscard]] virtual bool is_settled(std::size_t target) const = 0;
+};
+
+}  // namespace rnmbake
