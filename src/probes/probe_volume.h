@@ -44,12 +44,19 @@ struct ProbeGrid {
 struct LightProbe {
   enum class State { sound, moved, filled };
 
-  Vec3d position{0, 0, 0};               // where it was gathered, world space
-  PerProbeDirection<Vec3> irradiance{};  // E/pi, RGB, at probe_directions()
-  PerProbeDirection<Vec3> standard_error{};
-  std::array<Vec3, 9> harmonics{};  // of radiance, world space: encoding/sh.h
-  float validity = 1;               // share of its rays that met no back face
-  State state = State::sound;       // moved: off its place, out of geometry; filled: from its neighbours
+  /// Dark: Imath's vectors begin as what the memory holds.
+  LightProbe() {
+    irradiance.fill(Vec3(0));
+    standard_error.fill(Vec3(0));
+    harmonics.fill(Vec3(0));
+  }
+
+  Vec3d position{0, 0, 0};             // where it was gathered, world space
+  PerProbeDirection<Vec3> irradiance;  // E/pi, RGB, at probe_directions()
+  PerProbeDirection<Vec3> standard_error;
+  std::array<Vec3, 9> harmonics;  // of radiance, world space: encoding/sh.h
+  float validity = 1;             // share of its rays that met no back face
+  State state = State::sound;     // moved: off its place, out of geometry; filled: from its neighbours
 };
 
 /// Distances that a probe's rays go, over octahedral maps; for tests of visibility (probes/lookup.h).

@@ -7,6 +7,7 @@
 #include "base/read_file.h"
 #include "image/layered_exr.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -43,6 +44,15 @@ Layer layer_of(const ProbeVolume& volume, const std::string& name,
   return layer;
 }
 
+/// A layer of one channel.
+Layer number_layer(const ProbeVolume& volume, const std::string& name,
+                   const std::function<float(const LightProbe&)>& value) {
+  const auto [width, height] = size_of(volume);
+  Layer layer{name, {""}, FloatImage(width, height, 1)};
+  std::ranges::transform(volume.probes, layer.pixels.data().begin(), value);
+  return layer;
+}
+
 std::string error_layer(std::size_t direction) {
   return std::string("error_") + probe_direction_names()[direction];
 }
@@ -59,15 +69,13 @@ LayeredImage picture_of(const ProbeVolume& volume) {
     image.layers.push_back(layer_of(volume, "sh" + std::to_string(k),
                                     [k](const LightProbe& probe) { return probe.harmonics[k]; }));
   }
-  Layer place = layer_of(volume, "offset", [](const LightProbe& probe) { return Vec3(probe.position); });
-  Layer state = layer_of(volume, "probe", [](const LightProbe& probe) {
-    return Vec3(probe.validity, static_cast<float>(probe.state), 0);
-  });
-  place.name = "position";
+  Layer place = layer_of(volume, "position", [](const LightProbe& probe) { return Vec3(probe.position); });
   place.channels = {"X", "Y", "Z"};
-  state.channels = {"validity", "state", "unused"};
   image.layers.push_back(std::move(place));
-  image.layers.push_back(std::move(state));
+  image.layers.push_back(
+      number_layer(volume, "validity", [](const LightProbe& probe) { return probe.validity; }));
+  image.layers.push_back(
+      number_layer(volume, "state", [](const LightProbe& probe) { return static_cast<float>(probe.state); }));
   return image;
 }
 
@@ -162,6 +170,11 @@ class LayerReader {
   const FloatImage* pixels_;
 };
 
+LightProbe::State state_of(float number) {
+  using State = LightProbe::State;
+  return number == 0 ? State::sound : number == 1 ? State::moved : State::filled;
+}
+
 void read_probes(const LayeredImage& image, ProbeVolume& volume) {
   const std::size_t count = volume.probes.size();
   const auto each = [&](const std::string& layer, const std::function<void(LightProbe&, const Vec3&)>& take) {
@@ -175,12 +188,11 @@ void read_probes(const LayeredImage& image, ProbeVolume& volume) {
   for (std::size_t k = 0; k < 9; ++k)
     each("sh" + std::to_string(k), [k](LightProbe& probe, const Vec3& v) { probe.harmonics[k] = v; });
   each("position", [](LightProbe& probe, const Vec3& v) { probe.position = Vec3d(v); });
-  each("probe", [](LightProbe& probe, const Vec3& v) {
-    probe.validity = v.x;
-    probe.state = v.y == 0   ? LightProbe::State::sound
-                  : v.y == 1 ? LightProbe::State::moved
-                             : LightProbe::State::filled;
-  });
+  const LayerReader validity(image, "validity", 1, count), state(image, "state", 1, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    volume.probes[i].validity = validity[i][0];
+    volume.probes[i].state = state_of(state[i][0]);
+  }
 }
 
 void read_depths(const LayeredImage& image, int side, ProbeVolume& volume) {

@@ -26,7 +26,7 @@ struct ProbeGatherOptions {
 /// Light at one point.
 struct GatheredProbe {
   std::vector<Vec3> irradiance, standard_error;  // [directions], E/pi
-  std::array<Vec3, 9> harmonics{};               // of radiance, world space (encoding/sh.h)
+  std::array<Vec3, 9> harmonics;                 // of radiance, world space (encoding/sh.h)
   double back_faces = 0;                         // share of the primary rays that met one
 };
 
