@@ -199,3 +199,18 @@ def describe_world(world):
     link = source.inputs["Color"].links[0]
     kind = "picture" if link.from_node.type == "TEX_ENVIRONMENT" else "nodes"
     return {"kind": kind, "strength": strength, "color": [1.0, 1.0, 1.0]}
+
+
+def describe_probe_place(ob, matrix):
+    """An empty, or one of Blender's volumes of light probes: the cube from -1 to 1 in its space. None for others.
+
+    The volumes' type and the names of their counts changed with 4.1.
+    """
+    entry = {"name": ob.name, "matrix": [value for row in matrix for value in row], "counts": [0, 0, 0]}
+    if ob.type == "EMPTY":
+        return entry
+    if ob.type != "LIGHT_PROBE" or ob.data.type not in ("GRID", "VOLUME"):
+        return None
+    prefix = "resolution_" if hasattr(ob.data, "resolution_x") else "grid_resolution_"
+    entry["counts"] = [getattr(ob.data, prefix + axis) for axis in "xyz"]
+    return entry

@@ -6,7 +6,7 @@ import sys
 import bpy
 
 from core.task import Refusal
-from scene_ops.describe import describe_light, describe_material, describe_world
+from scene_ops.describe import describe_light, describe_material, describe_probe_place, describe_world
 from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, material_name, shown_surfaces
 from scene_ops.light_linking import Choices
 from scene_ops.render_depsgraph import with_render_depsgraph
@@ -24,7 +24,7 @@ class Surveyor:
     def __init__(self, task):
         self.task = task
         self.meshes = MeshFile(task.path("survey.bin"))
-        self.objects, self.lights, self.warnings = [], [], []
+        self.objects, self.lights, self.probe_places, self.warnings = [], [], [], []
         self.material_names = set()
         self._keys, self._choices = Keys(), Choices()
 
@@ -36,6 +36,8 @@ class Surveyor:
                 self.lights.append(describe_light(instance.object, instance.matrix_world))
             elif instance.object.type in FACELESS:
                 self.material_names.update(slot_names(instance.object))
+            elif place := describe_probe_place(instance.object, instance.matrix_world):
+                self.probe_places.append(place)
         for instance in shown_surfaces(depsgraph):
             self.add_surface(instance, instance.object)
 
@@ -88,6 +90,7 @@ def survey_scene(task, surveyor=None):
         "objects": surveyor.objects,
         "materials": {material_name(material): describe_material(material) for material in wanted},
         "lights": surveyor.lights,
+        "probe_places": surveyor.probe_places,
         "world": describe_world(scene.world),
         "warnings": surveyor.warnings,
     }

@@ -87,10 +87,15 @@ json store_survey(const SceneSurvey& survey, std::string& data) {
       {"meshes", json::array()},
       {"objects", json::array()},
       {"lights", json::array()},
+      {"probe_places", json::array()},
       {"materials", json::object()}};
   for (const Mesh& mesh : survey.meshes) content["meshes"].push_back(store_mesh(mesh, data));
   for (const SceneObject& object : survey.objects) content["objects"].push_back(store_object(object));
   for (const LightInfo& light : survey.lights) content["lights"].push_back(store_light(light));
+  for (const ProbePlace& place : survey.probe_places) {
+    content["probe_places"].push_back(
+        {{"name", place.name}, {"matrix", store_matrix(place.to_world)}, {"counts", place.counts}});
+  }
   for (const auto& [name, material] : survey.materials) {
     content["materials"][name] = {{"normal_mapped", material.normal_mapped},
                                   {"emissive", material.emissive},

@@ -30,6 +30,15 @@ struct LightInfo {
   std::vector<std::string> outside_model;  // "node tree", "light linking", ...
 };
 
+/// Where a user may want light probes: an empty, or one of Blender's own volumes.
+struct ProbePlace {
+  std::string name;
+  Mat44 to_world;               // row-vector convention; a volume is the cube [-1, 1]^3
+  std::array<int, 3> counts{};  // probes along its axes; 0: an empty
+
+  [[nodiscard]] bool is_volume() const { return counts[0] > 0; }
+};
+
 /// One thing with faces. Instances appear once each, with the mesh they share.
 struct SceneObject {
   std::string key;        // unique in the scene: the object's name, or instancer/name#n for instances
@@ -50,6 +59,7 @@ struct SceneSurvey {
   std::vector<SceneObject> objects;
   std::map<std::string, MaterialInfo> materials;
   std::vector<LightInfo> lights;
+  std::vector<ProbePlace> probe_places;
   std::string world;  // "none", "constant", "picture", "nodes"
   double world_strength = 0;
   std::array<double, 3> world_color{1, 1, 1};

@@ -57,6 +57,17 @@ LightInfo read_light(const json& entry) {
   return light;
 }
 
+ProbePlace read_probe_place(const json& entry) {
+  ProbePlace place{entry.at("name").get<std::string>(), {}, entry.at("counts").get<std::array<int, 3>>()};
+  place.to_world = read_matrix(entry.at("matrix"), "'" + place.name + "'");
+  const bool is_empty = place.counts == std::array<int, 3>{};
+  for (const int count : place.counts) {
+    if (!is_empty && (count < 1 || count > 4096))
+      fail(ExitCode::invalid_input, "'{}': a volume of {} light probes", place.name, count);
+  }
+  return place;
+}
+
 void read_world(const json& entry, SceneSurvey& survey) {
   survey.world = entry.at("kind").get<std::string>();
   survey.world_strength = entry.at("strength").get<double>();
@@ -132,6 +143,8 @@ SceneSurvey parse_survey(const json& content, Blob& data) {
   for (const json& entry : content.at("lights")) {
     survey.lights.push_back(read_light(entry));
   }
+  for (const json& entry : content.value("probe_places", json::array()))  // files of older versions have none
+    survey.probe_places.push_back(read_probe_place(entry));
   read_world(content.at("world"), survey);
   survey.warnings = content.at("warnings").get<std::vector<std::string>>();
   return survey;
