@@ -13,6 +13,7 @@
 #include "cli/export.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
+#include "cli/probes.h"
 #include "cli/reference.h"
 #include "cli/render.h"
 #include "cli/shaders.h"
@@ -71,6 +72,19 @@ constexpr const char* about_bake =
 constexpr const char* about_inspect =
     "\n\nSays what `rnmbake bake` with the same settings would bake and at which size, and what in the\n"
     "scene would get in its way; nothing is baked or written.";
+
+constexpr const char* about_probes =
+    "\n\nLight probes hold the light that reaches a point from all around: what characters and props are\n"
+    "lit by, as lightmaps light what stands still. A box of them is filled around the scene, or where\n"
+    "Blender's own light probe volumes stand; probes inside of geometry are moved out of it or filled\n"
+    "from their neighbours. Writes probes.json and an EXR for each volume: irradiance at 14 normals with\n"
+    "standard errors, ambient cube and harmonics of order 3.\n"
+    "\n"
+    "Examples:\n"
+    "  rnmbake probes hall.blend -o volume --spacing 1              a box around the scene\n"
+    "  rnmbake probes hall.blend -o volume --bounds 0,0,0,8,6,3     a box of this size\n"
+    "  rnmbake probes hall.blend -o volume --dynamic 'Hero*,Door'   without what moves\n"
+    "  rnmbake probes hall.blend -o volume --lights static          lamps stay the engine's own";
 
 constexpr const char* about_export =
     "\n\nAlbedo and emission of every surface as Cycles shows them, lights, world, camera and the lightmap\n"
@@ -144,6 +158,7 @@ const std::vector<Command>& commands() {
       {"inspect", add_inspect_command, about_inspect},
       {"export", add_export_command, about_export},
       {"reference", add_reference_command, about_reference},
+      {"probes", add_probes_command, about_probes},
       {"validate", add_validate_command, about_validate},
       {"compare", add_compare_command, about_compare},
       {"render", add_render_command, about_render},

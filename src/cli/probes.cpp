@@ -1,0 +1,144 @@
+#include "cli/probes.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "blender/late_blender.h"
+#include "cli/settings_flags.h"
+#include "pipeline/probes/probes_run.h"
+#include "pipeline/scene/export_scene.h"
+#include "probes/volume_file.h"
+#include "process/stop.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
+
+namespace rnmbake {
+namespace {
+
+/// Settings that matter for probes.
+constexpr std::array probes_settings{
+    "samples",         "seed",          "clamp",       "bounces",      "device",         "materials",
+    "allow_dark",      "allow_scripts", "atlas_limit", "memory_limit", "blender",        "scripts",
+    "blender_version", "threads",       "timeout",     "retries",      "launch_timeout", "keep_temporary"};
+
+struct ProbesFlags {
+  explicit ProbesFlags(CLI::App& command) : settings(command, Purpose::reference, probes_settings) {}
+
+  SettingsFlags settings;
+  double spacing = 0;  // 0: not said
+  std::string bounds = "auto", lights = "all", by = "reference";
+  ProbesOptions options;
+  bool no_depth = false;
+  std::filesystem::path output;
+
+  /// Throws Error(usage).
+  [[nodiscard]] ProbesOptions checked() const {
+    if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+    ProbesOptions made = options;
+    if (spacing > 0) made.places.spacing = spacing;
+    if (bounds != "auto") made.places.bounds = parse_bounds(bounds);
+    made.lights =
+        static_cast<ProbeLights>(std::ranges::find(probe_lights_names, lights) - probe_lights_names.begin());
+    made.source = by == "blender" ? ProbeSource::blender : ProbeSource::reference;
+    made.settle.depth = !no_depth;
+    return made;
+  }
+};
+
+void say_what_came_out(const ProbesResult& result, const std::filesystem::path& folder) {
+  for (const ProbeVolume& volume : result.volumes) {
+    if (!volume.grid) {
+      log::info("'{}': {}", volume.name, counted(volume.probes.size(), "point"));
+      continue;
+    }
+    const ProbeGrid& grid = *volume.grid;
+    log::info("'{}': {} x {} x {} probes, {:.3g} x {:.3g} x {:.3g} units apart", volume.name, grid.counts[0],
+              grid.counts[1], grid.counts[2], grid.steps[0].length(), grid.steps[1].length(),
+              grid.steps[2].length());
+  }
+  log::info("{}", (folder / "probes.json").string());
+}
+
+int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
+  ProbesOptions options = flags.checked();
+  LateBlender blender(config.globals);
+  if (!is_rnmscene(config.globals.scene.file))
+    (void)blender.info();  // throws where it is missing, before any file is written
+  (void)plan_reference(config, "5.0");
+  make_folders(flags.output);
+  AtomicFile(flags.output / "probes.json")
+      .write(" ");  // never committed: finds out now that nothing can be written
+  BlenderSession session(config, blender);
+  ExportResult exported = export_scene(session);
+  options.settle.threads = config.globals.run.threads;
+  const ReferencePlan plan = plan_reference(config, exported.diffuse_scene.survey.blender_version);
+  const ProbesResult result = run_probes(session, exported, plan, options);
+  write_volumes(flags.output, result.volumes, result.about);
+  say_what_came_out(result, flags.output);
+  return static_cast<int>(ExitCode::ok);
+}
+
+}  // namespace
+
+std::function<int()> add_probes_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("probes", "Light what moves: ambient cubes and harmonics in boxes of light probes");
+  auto flags = std::make_shared<ProbesFlags>(*command);
+  command
+      ->add_option("--spacing", flags->spacing,
+                   "between the probes of a box, units of the scene [about 1000 probes]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("X");
+  command
+      ->add_option("--bounds", flags->bounds,
+                   "two corners of a box, filled with probes; auto: around all that does not move [auto]")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  command
+      ->add_option("--at", flags->options.places.at,
+                   "patterns for names of empties, and of Blender's light probe volumes, whose boxes and "
+                   "numbers of probes are taken; without --at, --points and a box all of the latter")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command
+      ->add_option("--points", flags->options.places.points,
+                   "a file with x, y and z in each line: probes without a box")
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--dynamic", flags->options.dynamic,
+                   "patterns for objects that move: they throw no shadow on probes and send them no light")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command
+      ->add_option(
+          "--lights", flags->lights,
+          "all: all light; static: all but what comes straight from lamps, which the engine keeps as "
+          "lights of its own; indirect: only what surfaces sent on, neither sky nor glowing "
+          "surfaces directly [all]")
+      ->check(CLI::IsMember(std::vector<std::string>(probe_lights_names.begin(), probe_lights_names.end()))
+                  .description(""))
+      ->type_name("all|static|indirect");
+  command->add_flag("--two-sided", flags->options.settle.two_sided,
+                    "faces have no back: no probe counts as inside of something");
+  command->add_flag(
+      "--no-depth", flags->no_depth,
+      "leave out the distances around each probe, by which light is kept from leaking through walls");
+  command->add_option("-o,--output", flags->output, "folder for probes.json and the pictures of each volume")
+      ->type_name("DIR");
+  return [flags] {
+    const auto config = flags->settings.resolve();
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    return make_probes(*config, *flags);
+  };
+}
+
+}  // namespace rnmbake

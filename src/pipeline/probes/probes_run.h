@@ -1,0 +1,39 @@
+// pipeline/probes/probes_run.h - light probes of a scene: placed, settled, lit, filled.
+#pragma once
+
+#include "blender/blender_session.h"
+#include "pipeline/probes/place_volumes.h"
+#include "pipeline/probes/settle_probes.h"
+#include "pipeline/reference/reference_plan.h"
+#include "pipeline/scene/export_scene.h"
+#include "probes/probe_lights.h"
+#include "probes/probe_volume.h"
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+enum class ProbeSource { reference, blender };
+
+struct ProbesOptions {
+  PlaceWishes places;
+  std::vector<std::string> dynamic;  // patterns of objects that move: no part of the light
+  ProbeLights lights = ProbeLights::all;
+  ProbeSource source = ProbeSource::reference;
+  SettleOptions settle;
+};
+
+struct ProbesResult {
+  std::vector<ProbeVolume> volumes;
+  nlohmann::json about;  // how they were found, for probes.json
+};
+
+/// Throws as place_volumes(), Error(invalid_input) where every probe stands inside of something, and
+/// Interrupted. `exported`: the scene; its dynamic objects are taken out of it for good.
+[[nodiscard]] ProbesResult run_probes(BlenderSession& session, ExportResult& exported,
+                                      const ReferencePlan& plan, const ProbesOptions& options);
+
+}  // namespace rnmbake
