@@ -1,0 +1,49 @@
+#include "probes/formats/formats.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/names.h"
+#include "probes/formats/makers.h"
+
+#include <algorithm>
+#include <array>
+
+namespace rnmbake {
+
+std::span<const ProbeFormat> probe_formats() {
+  static constexpr std::array<ProbeFormat, 3> formats{{
+      {"threejs", "three.js: LightProbeGrid, a loader and a page to look at",
+       "light_probes.json, STEM.bin, probes.js, index.html", threejs_files},
+      {"bevy", "Bevy: IrradianceVolume", "STEM.vxgi.ktx2, probes.rs", bevy_files},
+      {"cpp", "an engine of your own: a file and a C++ header that looks it up",
+       "STEM.rnmprobes, rnmbake_probes.h", cpp_files},
+  }};
+  return formats;
+}
+
+const ProbeFormat& probe_format_named(const std::string& name) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const ProbeFormat& format : probe_formats()) {
+    if (format.name == name) return format;
+    names.emplace_back(format.name);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  fail(ExitCode::usage, "no format of probes is called '{}'{}; there are {}", name, did_you_mean(name, names),
+       list);
+}
+
+std::vector<std::filesystem::path> write_probe_format(const std::string& name,
+                                                      std::span<const ProbeVolume> volumes,
+                                                      const std::filesystem::path& folder) {
+  const std::vector<FormatFile> files = probe_format_named(name).make(volumes);
+  make_folders(folder);
+  std::vector<std::filesystem::path> paths;
+  for (const FormatFile& file : files) {
+    paths.push_back(folder / file.name);
+    write_atomically(paths.back(), file.bytes);
+  }
+  return paths;
+}
+
+}  // namespace rnmbake
