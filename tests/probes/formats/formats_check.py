@@ -268,7 +268,7 @@ int main(int, char** arguments) {
                         "-Wno-sign-conversion", "-Wshadow", "-Werror", "-o", str(cls.program), "use.cpp"],
                        check=True, timeout=120, cwd=cls.folder)
 
-    def ask(self, name, queries, least=.5):
+    def ask(self, name, queries, least=.75):
         """A list of (light, whether the place is in the box)."""
         text = "".join(" ".join(f"{v:.9g}" for v in (*place, *normal, least)) + "\n" for place, normal in queries)
         answer = subprocess.run([str(self.program), str(self.folder / (name + ".rnmprobes"))], input=text, text=True,

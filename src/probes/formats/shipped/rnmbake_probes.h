@@ -106,7 +106,7 @@ class Volume {
   /// Nine coefficients of radiance at a place: of the eight probes around it, trilinear; beyond the box those
   /// of its border. Probes whose validity is below `least_validity` count only where no other is around. Of
   /// points alone: the nearest.
-  void coefficients(const Vector& place, float found[9][3], float least_validity = 0.5f) const {
+  void coefficients(const Vector& place, float found[9][3], float least_validity = 0.75f) const {
     std::memset(found, 0, sizeof(float) * 27);
     if (probes_.empty()) return;
     if (counts_[0] == 0) {
@@ -150,7 +150,7 @@ class Volume {
   }
 
   /// E/pi, RGB, at a place for a unit normal.
-  Vector irradiance(const Vector& place, const Vector& normal, float least_validity = 0.5f) const {
+  Vector irradiance(const Vector& place, const Vector& normal, float least_validity = 0.75f) const {
     float found[9][3];
     coefficients(place, found, least_validity);
     return irradiance_of(found, normal);
