@@ -12,6 +12,7 @@
 #include "image/layered_exr.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/reference/reference_plan.h"
+#include "pipeline/render/compare_probes.h"
 #include "pipeline/render/render_blender.h"
 #include "pipeline/render/render_compare.h"
 #include "pipeline/render/render_gbuffer.h"
@@ -48,6 +49,7 @@ class OpenScene {
         exported_(opened()),
         plan_(plan_reference(config_, exported_.diffuse_scene.survey.blender_version)),
         scene_(exported_.diffuse_scene, plan_.blender_version) {
+    if (!flags.probes.empty()) probes_.emplace(flags.probes, exported_.diffuse_scene, flags.dynamic);
     if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps.front(), exported_.diffuse_scene);
     if (lightmaps_ && !lightmaps_->bare().empty())
       log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
@@ -59,7 +61,9 @@ class OpenScene {
     const RenderOptions options = render_options(!flags_.with.empty());
     if (flags_.gbuffer) return write_gbuffer(options.view);
     if (!flags_.with.empty()) return write({by_blender(options.view), {}, {}});
-    write(render_view(scene_, lightmaps(), *lighting_of(decode_), options));
+    Lighting lighting = *lighting_of(decode_);
+    lighting.lookup = lookup();
+    write(render_view(scene_, lights(), lighting, options));
   }
 
   [[nodiscard]] Report compare() {
@@ -67,14 +71,17 @@ class OpenScene {
     options.render = render_options(true);
     options.own_materials = flags_.materials == "full";
     options.with_eevee = flags_.with == "eevee";
-    options.encoded.assign(flags_.lightmaps.begin() + 1, flags_.lightmaps.end());
+    if (flags_.lightmaps.size() > 1)
+      options.encoded.assign(flags_.lightmaps.begin() + 1, flags_.lightmaps.end());
     Report report;
-    report.views.push_back(compare_view(session_, exported_, scene_, *lightmaps_, options));
+    report.views.push_back(probes_ ? compare_probes_view(scene_, lights(), options.render)
+                                   : compare_view(session_, exported_, scene_, *lightmaps_, options));
     report.finding = finding_of(report.views.front());
     const ViewOptions& view = options.render.view;
     report.settings = {{"size", fmt::format("{} x {}", view.width, view.height)},
                        {"samples", fmt::format("{} of what is traced", view.samples)},
-                       {"lightmaps", flags_.lightmaps.front().string()},
+                       {probes_ ? "probes" : "lightmaps",
+                        probes_ ? flags_.probes.string() : flags_.lightmaps.front().string()},
                        {"Blender's materials", flags_.materials}};
     report.versions = {{"Blender", plan_.blender_version}};
     return report;
@@ -89,6 +96,18 @@ class OpenScene {
   }
 
   [[nodiscard]] const SceneLightmaps* lightmaps() const { return lightmaps_ ? &*lightmaps_ : nullptr; }
+
+  [[nodiscard]] SurfaceLights lights() const { return {lightmaps(), probes_ ? &*probes_ : nullptr}; }
+
+  [[nodiscard]] ProbeLookup lookup() const {
+    ProbeLookup lookup{*probe_encoding_of(flags_.probes_as), LeakTest::validity};
+    if (!flags_.leak_test.empty()) {
+      lookup.test = *leak_test_of(flags_.leak_test);
+    } else if (probes_) {
+      lookup.test = probes_->best_test();
+    }
+    return lookup;
+  }
 
   void write_gbuffer(const ViewOptions& options) const {
     const LayeredImage image =
@@ -132,6 +151,7 @@ class OpenScene {
   ReferencePlan plan_;
   TraceScene scene_;
   std::optional<SceneLightmaps> lightmaps_;
+  std::optional<SceneProbes> probes_;
 };
 
 void write_comparison(Report report, const ResolvedConfig& config, const RenderFlags& flags) {

@@ -3,13 +3,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "probes/volume_sampler.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {
@@ -20,6 +21,16 @@ constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one th
 constexpr std::array view_settings{"bounces",         "seed",           "device",        "allow_scripts",
                                    "blender_version", "blender",        "scripts",       "threads",
                                    "timeout",         "launch_timeout", "keep_temporary"};
+
+template <std::size_t N>
+std::vector<std::string> names(const std::array<std::string_view, N>& list) {
+  return {list.begin(), list.end()};
+}
+
+template <std::size_t N>
+std::string joined(const std::array<std::string_view, N>& list) {
+  return fmt::format("{}", fmt::join(list, "|"));
+}
 
 /// The whole text as a number of pixels.
 std::optional<int> pixels(const std::string& text) {
@@ -48,10 +59,27 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
           "--decode", decode,
           "how surfaces are lit: by the flat lightmap (single), by all maps and the material's normal map "
           "(squared, linear, vrad: see rnmbake decode; encoded: what rnmbake convert wrote), traced (truth), "
-          "or not (none: the albedo alone) [squared, or encoded]")
-      ->check(
-          CLI::IsMember({"single", "squared", "linear", "vrad", "encoded", "truth", "none"}).description(""))
-      ->type_name("single|squared|linear|vrad|encoded|truth|none");
+          "by --probes (probes), or not (none: the albedo alone) [squared, encoded or probes]")
+      ->check(CLI::IsMember({"single", "squared", "linear", "vrad", "encoded", "truth", "none", "probes"})
+                  .description(""))
+      ->type_name("single|squared|linear|vrad|encoded|truth|none|probes");
+  command
+      .add_option("--probes", probes,
+                  "what rnmbake probes wrote: lights the objects that were left out of it, or all where none "
+                  "were; with --compare in each encoding, and errors over these objects alone")
+      ->type_name("DIR");
+  command.add_option("--dynamic", dynamic, "patterns for the objects that the probes light instead of those")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command.add_option("--probes-as", probes_as, "what is kept of each probe [sh3]")
+      ->check(CLI::IsMember(names(probe_encoding_names)).description(""))
+      ->type_name(joined(probe_encoding_names));
+  command
+      .add_option("--leak-test", leak_test,
+                  "which of the eight probes around a place light it: all, those in the open, or those that "
+                  "see it [visibility, or validity where the distances are missing]")
+      ->check(CLI::IsMember(names(leak_test_names)).description(""))
+      ->type_name(joined(leak_test_names));
   command
       .add_option("--with", with,
                   "let Blender render the view instead, by Cycles or Eevee (which needs OpenGL); eevee with "
@@ -115,8 +143,16 @@ void RenderFlags::check() {
   if (lightmaps.size() > 1 && !compare)
     fail(ExitCode::usage,
          "several --lightmaps are for --compare; give one, or --compare with a folder as -o");
-  decode_by_header = ways == 0;
+  if (probes.empty() && (decode == "probes" || !dynamic.empty() || !leak_test.empty()))
+    fail(ExitCode::usage,
+         "--decode probes, --dynamic and --leak-test are for light probes; pass --probes DIR");
+  if (ways == 0 && !probes.empty()) decode = "probes";
+  if (!probes.empty() && decode != "probes" && !compare)
+    fail(ExitCode::usage,
+         "--probes lights by --decode probes, or in several ways by --compare; leave one out");
+  decode_by_header = decode.empty() && ways == 0;
   if (decode_by_header) decode = "squared";
+  if (!probes.empty()) return;
   const bool looks_up = compare || (!decode.empty() && decode != "truth" && decode != "none");
   if (looks_up && lightmaps.empty()) {
     fail(ExitCode::usage,
@@ -138,6 +174,10 @@ std::string RenderFlags::as_text() const {
     if (!value.empty()) text += fmt::format(" {} {}", flag, shell_word(value));
   };
   for (const std::filesystem::path& path : lightmaps) add("--lightmaps", path.string());
+  add("--probes", probes.string());
+  for (const std::string& pattern : dynamic) add("--dynamic", pattern);
+  if (probes_as != "sh3") add("--probes-as", probes_as);
+  add("--leak-test", leak_test);
   add("--decode", decode);
   add("--with", with);
   if (gbuffer) text += " --gbuffer";

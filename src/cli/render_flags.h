@@ -29,6 +29,9 @@ class RenderFlags {
 
   SettingsFlags settings;
   std::vector<std::filesystem::path> lightmaps;  // the bakes first, or one that was converted
+  std::filesystem::path probes;                  // "": none
+  std::vector<std::string> dynamic;              // what they light
+  std::string probes_as = "sh3", leak_test;      // "": the best that they allow
   std::filesystem::path output;
   bool decode_by_header = false;  // nothing was said: what the lightmaps are made for
   std::string decode, with, materials = "lambert", resolution, camera;

@@ -4,8 +4,8 @@
 #include "base/log.h"
 #include "encoding/codecs/describe_codec.h"
 #include "encoding/codecs/make_codec.h"
-#include "image/metrics.h"
 #include "pipeline/render/render_blender.h"
+#include "pipeline/render/view_halves.h"
 #include "report/finding.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace rnmbake {
 namespace {
 
-constexpr int looked_up_samples = 16, eevee_samples = 64;
+constexpr int eevee_samples = 64;
 
 struct Decoded {
   const char* label;
@@ -29,46 +29,6 @@ constexpr std::array<Decoded, 4> decodes{{{"single lightmap", DecodeVariant::sin
                                           {"RNM, squared", DecodeVariant::squared, 18},
                                           {"RNM, linear", DecodeVariant::linear, 18},
                                           {"RNM, vrad", DecodeVariant::vrad, 18}}};
-
-/// A picture, or the two halves of one that has noise.
-struct Halves {
-  FloatImage first, second;
-
-  [[nodiscard]] FloatImage mean() const {
-    FloatImage image = first;
-    for (std::size_t i = 0; i < second.data().size(); ++i)
-      image.data()[i] = (first.data()[i] + second.data()[i]) / 2;
-    return image;
-  }
-  [[nodiscard]] ComparedPicture compared() const {
-    return {&first, second.empty() ? nullptr : &second, nullptr};
-  }
-};
-
-/// Traced pictures of the view; pixels without a surface have coverage 0.
-struct Truth {
-  Halves halves;
-  FloatImage coverage;
-};
-
-int half_of(int samples) {
-  return std::max(1, samples / 2);
-}
-
-/// Gives the first half the camera rays of the decoded pictures.
-Truth trace(const TraceScene& scene, const SceneLightmaps& lightmaps, RenderOptions options) {
-  options.view.samples = half_of(options.view.samples);
-  View first = render_view(scene, &lightmaps, {Lighting::Kind::truth, {}}, options);
-  options.view.seed = hash_of(options.view.seed, 1);
-  View second = render_view(scene, &lightmaps, {Lighting::Kind::truth, {}}, options);
-  return {{std::move(first.beauty), std::move(second.beauty)}, std::move(first.coverage)};
-}
-
-Halves decode(const TraceScene& scene, const SceneLightmaps& lightmaps, DecodeVariant variant,
-              RenderOptions options) {
-  options.view.samples = std::min(looked_up_samples, options.view.samples);
-  return {render_view(scene, &lightmaps, {Lighting::Kind::decoded, variant}, options).beauty, {}};
-}
 
 Halves cycles(BlenderSession& session, const ExportResult& exported, const ViewCompareOptions& options) {
   BlenderViewOptions halves = blender_view(session, options.render.view, options.own_materials);
@@ -104,19 +64,6 @@ SceneLightmaps converted(const std::filesystem::path& path, const DiffuseScene& 
   return lightmaps;
 }
 
-ViewPicture compared(const std::string& label, const Halves& halves, const Truth& truth) {
-  PictureComparison comparison;
-  comparison.add(halves.compared(), truth.halves.compared(), {{&truth.coverage, 0.5F}});
-  const PictureMetrics metrics = comparison.metrics();
-  ViewPicture picture{label, halves.mean()};
-  picture.has_error = metrics.texels > 0 && metrics.reference_mean > 0;
-  picture.rmse = metrics.rmse.value;
-  picture.relative_rmse = metrics.relative_rmse.value;
-  picture.bias = metrics.bias.value;
-  picture.relative_bias = metrics.relative_bias.value;
-  return picture;
-}
-
 }  // namespace
 
 RenderOptions render_options(const Camera& camera, int longest) {
@@ -134,7 +81,8 @@ ViewComparison compare_view(BlenderSession& session, const ExportResult& exporte
   std::vector<SceneLightmaps> encoded;  // read before anything that takes long
   for (const std::filesystem::path& path : options.encoded)
     encoded.push_back(converted(path, exported.diffuse_scene));
-  const Truth truth = trace(scene, lightmaps, options.render);
+  const SurfaceLights lights{&lightmaps, nullptr};
+  const ViewTruth truth = trace_truth(scene, lights, options.render);
   ViewComparison view;
   view.name = camera_of(exported.diffuse_scene).name;
   view.pictures.push_back({"truth", truth.halves.mean()});
@@ -153,13 +101,17 @@ ViewComparison compare_view(BlenderSession& session, const ExportResult& exporte
       log::warn("no picture '{}': {}", label, *why);
       continue;
     }
-    view.pictures.push_back(compared(label, decode(scene, lightmaps, variant, options.render), truth));
+    view.pictures.push_back(
+        compared(label, looked_up(scene, lights, {Lighting::Kind::decoded, variant}, options.render), truth));
     view.pictures.back().bytes = bytes;
   }
   const auto add = [&](const SceneLightmaps& shown) {
     const LightmapMetadata& metadata = shown.placed().front().lightmap.metadata;
-    view.pictures.push_back(compared(label_of(metadata.codec),
-                                     decode(scene, shown, DecodeVariant::encoded, options.render), truth));
+    view.pictures.push_back(
+        compared(label_of(metadata.codec),
+                 looked_up(scene, {&shown, nullptr}, {Lighting::Kind::decoded, DecodeVariant::encoded},
+                           options.render),
+                 truth));
     view.pictures.back().bytes =
         stored_bytes(metadata.codec, make_codec(metadata.codec, {"", metadata.bases})->layers().size());
   };

@@ -9,6 +9,7 @@
 #include "trace/path.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,23 +22,29 @@ constexpr std::array variants{DecodeVariant::single, DecodeVariant::squared, Dec
 /// Lights one place after the other.
 class Shader {
  public:
-  Shader(const TraceScene& scene, const SceneLightmaps* lightmaps, const Lighting& lighting, int bounces)
+  Shader(const TraceScene& scene, const SurfaceLights& lights, const Lighting& lighting, int bounces)
       : scene_(scene),
-        lightmaps_(lightmaps),
+        lights_(lights),
         lighting_(lighting),
-        surfaces_(scene,
-                  lightmaps == nullptr ? std::map<std::size_t, std::string>{} : lightmaps->tangent_layers()) {
+        surfaces_(scene, lights.lightmaps == nullptr ? std::map<std::size_t, std::string>{}
+                                                     : lights.lightmaps->tangent_layers()) {
     path_.bounces = bounces < 0 ? -1 : bounces + 1;
     path_.before = 0;
-    if (lighting.kind != Lighting::Kind::decoded) return;
-    if (lightmaps == nullptr) fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
-    decoders_ = lightmaps->decoders(lighting.variant);
+    if (lighting.kind == Lighting::Kind::probes) {
+      if (lights.probes == nullptr) fail(ExitCode::usage, "{} needs light probes", name_of(lighting));
+      probe_light_.emplace(*lights.probes, lighting.lookup);
+    }
+    if (lighting.kind == Lighting::Kind::decoded && lights.lightmaps == nullptr)
+      fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
+    if (takes_lightmaps()) decoders_ = lights.lightmaps->decoders(lighting.variant);
   }
 
   [[nodiscard]] Vec3 reflected(const Vertex& vertex, Sampler& sampler) const {
     if (lighting_.kind == Lighting::Kind::none) return albedo(vertex);
     if (lighting_.kind == Lighting::Kind::truth) return traced(vertex, sampler);
-    const int number = lightmaps_->find(surfaces_.object_of(vertex), surfaces_.source_of(vertex));
+    if (probe_light_ && lights_.probes->lights(surfaces_.object_of(vertex))) return by_probes(vertex);
+    if (!takes_lightmaps()) return traced(vertex, sampler);
+    const int number = lights_.lightmaps->find(surfaces_.object_of(vertex), surfaces_.source_of(vertex));
     return number < 0 ? traced(vertex, sampler) : decoded(vertex, static_cast<std::size_t>(number));
   }
 
@@ -46,8 +53,19 @@ class Shader {
     return scene_.materials().albedo(vertex.material, vertex.uv);
   }
 
+  [[nodiscard]] bool takes_lightmaps() const {
+    using Kind = Lighting::Kind;
+    return lights_.lightmaps != nullptr &&
+           (lighting_.kind == Kind::decoded || lighting_.kind == Kind::probes);
+  }
+
+  [[nodiscard]] Vec3 by_probes(const Vertex& vertex) const {
+    const Vec3 normal = surfaces_.to_world(vertex, surfaces_.mapped_normal(vertex));
+    return albedo(vertex) * probe_light_->irradiance(Vec3d(vertex.position) + scene_.origin(), normal);
+  }
+
   [[nodiscard]] Vec3 decoded(const Vertex& vertex, std::size_t number) const {
-    const Vec2 uv = surfaces_.at(vertex, *lightmaps_->placed()[number].uv);
+    const Vec2 uv = surfaces_.at(vertex, *lights_.lightmaps->placed()[number].uv);
     return albedo(vertex) * decoders_[number].at(uv, surfaces_.mapped_normal(vertex));
   }
 
@@ -59,11 +77,12 @@ class Shader {
   }
 
   const TraceScene& scene_;
-  const SceneLightmaps* lightmaps_;
+  SurfaceLights lights_;
   Lighting lighting_;
   RenderSurfaces surfaces_;
   PathOptions path_;
   std::vector<LightmapDecoder> decoders_;
+  std::optional<ProbeLight> probe_light_;
 };
 
 }  // namespace
@@ -71,6 +90,7 @@ class Shader {
 std::optional<Lighting> lighting_of(const std::string& name) {
   if (name == "truth") return Lighting{Lighting::Kind::truth, {}};
   if (name == "none") return Lighting{Lighting::Kind::none, {}};
+  if (name == "probes") return Lighting{Lighting::Kind::probes, {}};
   for (const DecodeVariant variant : variants) {
     if (name == name_of(variant)) return Lighting{Lighting::Kind::decoded, variant};
   }
@@ -78,8 +98,17 @@ std::optional<Lighting> lighting_of(const std::string& name) {
 }
 
 std::string name_of(const Lighting& lighting) {
-  if (lighting.kind == Lighting::Kind::decoded) return name_of(lighting.variant);
-  return lighting.kind == Lighting::Kind::truth ? "truth" : "none";
+  switch (lighting.kind) {
+    case Lighting::Kind::decoded:
+      return name_of(lighting.variant);
+    case Lighting::Kind::truth:
+      return "truth";
+    case Lighting::Kind::probes:
+      return "probes";
+    case Lighting::Kind::none:
+      break;
+  }
+  return "none";
 }
 
 const Camera& camera_of(const DiffuseScene& scene) {
@@ -90,9 +119,9 @@ const Camera& camera_of(const DiffuseScene& scene) {
        scene.survey.scene_file);
 }
 
-View render_view(const TraceScene& scene, const SceneLightmaps* lightmaps, const Lighting& lighting,
+View render_view(const TraceScene& scene, const SurfaceLights& lights, const Lighting& lighting,
                  const RenderOptions& options) {
-  const Shader shader(scene, lightmaps, lighting, options.bounces);
+  const Shader shader(scene, lights, lighting, options.bounces);
   Progress progress("rendering", progress_for(log::is_quiet(), log::is_jsonl()));
   View view = trace_view(
       scene, camera_of(scene.diffuse_scene()), options.view,

@@ -53,9 +53,9 @@ class Studio {
     options.view.width = options.view.height = 12;
     options.view.samples = samples;
     const Lighting how = *lighting_of(lighting);
-    if (how.kind != Lighting::Kind::decoded) return render_view(traced_, nullptr, how, options);
+    if (how.kind != Lighting::Kind::decoded) return render_view(traced_, {}, how, options);
     const SceneLightmaps maps = lightmaps();
-    return render_view(traced_, &maps, how, options);
+    return render_view(traced_, {&maps, nullptr}, how, options);
   }
 
   ExportResult exported;

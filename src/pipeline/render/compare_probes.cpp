@@ -1,0 +1,60 @@
+#include "pipeline/render/compare_probes.h"
+
+#include "base/error.h"
+#include "pipeline/render/view_halves.h"
+#include "trace/gbuffer.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rnmbake {
+namespace {
+
+constexpr std::array<std::size_t, 5> colours_of{6, 6, 4, 4, 9};  // of each ProbeEncoding
+
+/// 1 at the pixels whose middle shows an object that the probes light.
+FloatImage lit_pixels(const TraceScene& scene, const SceneProbes& probes, const ViewOptions& view) {
+  const GBuffer buffer = trace_gbuffer(scene, camera_of(scene.diffuse_scene()), view,
+                                       [](const Vertex& vertex) { return vertex.normal; });
+  FloatImage lit(buffer.object.width(), buffer.object.height(), 1);
+  std::ranges::transform(buffer.object.data(), lit.data().begin(), [&](float number) {
+    return number > 0 && probes.lights(static_cast<std::size_t>(number) - 1) ? 1.0F : 0.0F;
+  });
+  return lit;
+}
+
+std::string label_of(const ProbeLookup& lookup) {
+  return "probes, " + std::string(probe_encoding_names[std::size_t(lookup.encoding)]) + ", leak test " +
+         std::string(leak_test_names[std::size_t(lookup.test)]);
+}
+
+}  // namespace
+
+ViewComparison compare_probes_view(const TraceScene& scene, const SurfaceLights& lights,
+                                   const RenderOptions& options) {
+  ViewTruth truth = trace_truth(scene, lights, options);
+  truth.coverage = lit_pixels(scene, *lights.probes, options.view);
+  if (std::ranges::none_of(truth.coverage.data(), [](float lit) { return lit > 0; }))
+    fail(ExitCode::invalid_input,
+         "the camera sees nothing that the probes light; pass --camera fit, or --dynamic");
+  ViewComparison view;
+  view.name = camera_of(scene.diffuse_scene()).name;
+  view.pictures.push_back({"truth", truth.halves.mean()});
+  std::vector<LeakTest> tests{LeakTest::none, LeakTest::validity};
+  if (lights.probes->best_test() == LeakTest::visibility) tests.push_back(LeakTest::visibility);
+  const auto add = [&](const ProbeLookup& lookup) {
+    view.pictures.push_back(compared(
+        label_of(lookup), looked_up(scene, lights, {Lighting::Kind::probes, {}, lookup}, options), truth));
+    view.pictures.back().bytes = static_cast<int>(6 * colours_of[std::size_t(lookup.encoding)]);
+  };
+  for (std::size_t i = 0; i < probe_encoding_names.size(); ++i)
+    add({static_cast<ProbeEncoding>(i), tests.back()});
+  for (const LeakTest test : tests)
+    if (test != tests.back()) add({ProbeEncoding::sh3, test});
+  return view;
+}
+
+}  // namespace rnmbake

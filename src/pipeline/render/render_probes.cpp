@@ -1,0 +1,64 @@
+#include "pipeline/render/render_probes.h"
+
+#include "base/error.h"
+#include "pipeline/probes/place_volumes.h"
+#include "probes/volume_file.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace rnmbake {
+namespace {
+
+/// How far a place lies outside of a box, in steps of its probes.
+double distance_outside(const ProbeGrid& grid, const Vec3d& place) {
+  const Vec3d at = grid.coordinates(place);
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = grid.counts[std::size_t(axis)] - 1;
+    most = std::max({most, -at[axis], at[axis] - last});
+  }
+  return most;
+}
+
+}  // namespace
+
+SceneProbes::SceneProbes(const std::filesystem::path& path, const DiffuseScene& scene,
+                         const std::vector<std::string>& dynamic) {
+  StoredVolumes stored = read_volumes(path);
+  for (ProbeVolume& volume : stored.volumes)
+    if (volume.grid) volumes_.push_back(std::move(volume));
+  if (volumes_.empty())
+    fail(ExitCode::unsupported, "{} holds lists of points; only boxes of probes light what lies between",
+         path.string());
+  auto patterns = dynamic;
+  if (patterns.empty()) patterns = stored.about.value("dynamic", std::vector<std::string>());
+  lit_ = dynamic_objects(scene.survey, patterns);
+  if (patterns.empty()) std::ranges::fill(lit_, 1);
+}
+
+LeakTest SceneProbes::best_test() const {
+  const bool have_distances =
+      std::ranges::all_of(volumes_, [](const ProbeVolume& volume) { return volume.depths.side > 0; });
+  return have_distances ? LeakTest::visibility : LeakTest::validity;
+}
+
+ProbeLight::ProbeLight(const SceneProbes& probes, const ProbeLookup& lookup) : probes_(probes) {
+  for (const ProbeVolume& volume : probes.volumes())
+    samplers_.emplace_back(volume, lookup.encoding, lookup.test);
+}
+
+Vec3 ProbeLight::irradiance(const Vec3d& place, const Vec3& normal) const {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < samplers_.size() && least > 0; ++i) {
+    const double distance = distance_outside(*probes_.volumes()[i].grid, place);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = i;
+  }
+  const Vec3 light = samplers_[nearest].irradiance(place, normal);
+  return {std::max(0.0F, light.x), std::max(0.0F, light.y), std::max(0.0F, light.z)};
+}
+
+}  // namespace rnmbake

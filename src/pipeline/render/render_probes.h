@@ -1,0 +1,50 @@
+// pipeline/render/render_probes.h - volumes of light probes from disk, and what in a scene they light.
+#pragma once
+
+#include "probes/volume_sampler.h"
+#include "scene/diffuse_scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+struct ProbeLookup {
+  ProbeEncoding encoding = ProbeEncoding::sh3;
+  LeakTest test = LeakTest::visibility;
+};
+
+/// What lights the moving objects of a scene.
+class SceneProbes {
+ public:
+  /// `path`: what rnmbake probes wrote. `dynamic`: patterns of the objects that it lights; none: those that
+  /// were left out of it; where that is none either, all. Throws as read_volumes() and dynamic_objects(), and
+  /// Error(unsupported) where no volume is a box.
+  SceneProbes(const std::filesystem::path& path, const DiffuseScene& scene,
+              const std::vector<std::string>& dynamic);
+
+  [[nodiscard]] bool lights(std::size_t object) const { return lit_[object] != 0; }
+  [[nodiscard]] const std::vector<ProbeVolume>& volumes() const { return volumes_; }
+  /// Visibility where all volumes hold distances.
+  [[nodiscard]] LeakTest best_test() const;
+
+ private:
+  std::vector<ProbeVolume> volumes_;  // boxes alone
+  std::vector<char> lit_;             // [objects]
+};
+
+/// Light at any place, from the first box that it lies in, else the nearest box.
+class ProbeLight {
+ public:
+  ProbeLight(const SceneProbes& probes, const ProbeLookup& lookup);
+
+  /// E/pi, RGB, never negative; world space.
+  [[nodiscard]] Vec3 irradiance(const Vec3d& place, const Vec3& normal) const;
+
+ private:
+  const SceneProbes& probes_;
+  std::vector<VolumeSampler> samplers_;  // [volumes]
+};
+
+}  // namespace rnmbake
