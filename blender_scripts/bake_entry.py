@@ -15,6 +15,7 @@ import bpy  # noqa: E402
 from core import task as core_task  # noqa: E402
 from core.stopwatch import Stopwatch  # noqa: E402
 from bake import fences, flat_normal_map, glow, own_shadow, receivers  # noqa: E402
+from objects import realize  # noqa: E402
 from opening import load  # noqa: E402
 from scene_ops import cycles, displacement, lamps  # noqa: E402
 
@@ -27,6 +28,7 @@ def main(task):
     if not task.request["cycles"]["lamps"]:
         lamps.put_out()
     if task.request["recipe"] == "receiver":
+        realize.remove(task.request["absent"])
         glow.leave_large_emitters_to_chance()
         guard_faces(task, scene, task.request.get("guards"))
         return bake_receivers(task, scene)

@@ -52,6 +52,12 @@ def realize(keys):
     return {item.name: item.object for item in found.surfaces}
 
 
+def remove(keys):
+    """Take what has one of these keys out of the scene; what makes it, and what hangs on that, stay."""
+    for ob in realize(set(keys)).values():
+        bpy.data.objects.remove(ob)
+
+
 def stop_instancing(owner):
     """Returns the objects that only its instances showed, and that now show themselves."""
     patterns = list(owner.children) if owner.instance_type in ("VERTS", "FACES") else []

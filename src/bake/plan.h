@@ -27,7 +27,7 @@ struct CyclesSettings {
 };
 
 /// What gets pictures of its own: a target with a lightmap (bake/targets.h), or a block of points in free
-/// space.
+/// space (bake/point_receivers.h).
 struct PlanTarget {
   std::string key;          // in messages
   RectSize map;             // texels
@@ -70,6 +70,7 @@ struct Plan {
   std::optional<FaceGuards> guards;  // absent: receivers stand in free space
   std::vector<BakeTask> tasks;
   std::vector<Batch> batches;
+  std::vector<std::string> absent;  // keys of objects that are not there (scene/survey.h)
 };
 
 /// Names of the tasks of each basis: "basis flat", ...

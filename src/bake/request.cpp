@@ -231,6 +231,7 @@ BakeRequest receiver_request(const Plan& plan, const Batch& batch, std::int64_t 
                              const fs::path& folder) {
   BakeRequest request{base_request(batch, plan, name_of(BakingSettings::Recipe::receiver)),
                       {rects_of(batch, plan), {}}};
+  request.json["absent"] = plan.absent;
   if (plan.guards) {
     request.json["guards"] = {{"glow_heights", plan.guards->glow_heights},
                               {"fences", write_fences(plan.guards->fences, batch, plan, folder)}};

@@ -1,0 +1,102 @@
+#include "pipeline/probes/probe_collector.h"
+
+#include "base/log.h"
+#include "base/numeric/row_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rnmbake {
+
+ProbeCollector::ProbeCollector(const Plan& plan, std::vector<ProbeBlock> blocks, std::vector<ProbeTerm> terms,
+                               std::size_t directions)
+    : plan_(plan), terms_(std::move(terms)), directions_(directions) {
+  std::size_t positions = 0;
+  for (const ProbeBlock& block : blocks) {
+    blocks_.push_back({block});
+    positions = std::max(positions, block.first + block.count);
+  }
+  for (const BakeTask& task : plan.tasks) ++blocks_[task.target].missing;
+  sums_.assign(positions * directions, Vec3d(0, 0, 0));
+  holed_.assign(positions, false);
+}
+
+void ProbeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) {
+  const std::lock_guard lock(mutex_);
+  std::size_t next = 0;
+  for (const std::size_t index : batch.tasks) {
+    const BakeTask& task = plan_.tasks[index];
+    Block& block = blocks_[task.target];
+    for (std::size_t i = 0; i < task.rects.size(); ++i, ++next) {
+      if (!block.given_up) add(plan_.rects[layout.rects[next]], pictures[next], sign_of(task));
+    }
+    --block.missing;
+  }
+}
+
+void ProbeCollector::give_up(std::size_t target, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(blocks_[target].given_up, true)) return;
+  log::error("{}: {}", plan_.targets[target].key, reason);
+}
+
+bool ProbeCollector::is_settled(std::size_t target) const {
+  const std::lock_guard lock(mutex_);
+  return blocks_[target].given_up || blocks_[target].missing == 0;
+}
+
+std::vector<Vec3> ProbeCollector::irradiance() const {
+  const std::vector<bool> baked = is_baked();
+  std::vector<Vec3> values;
+  values.reserve(sums_.size());
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Vec3d& sum = sums_[i];
+    const Vec3 value(float(std::max(sum.x, 0.0)), float(std::max(sum.y, 0.0)), float(std::max(sum.z, 0.0)));
+    values.push_back(baked[i / directions_] ? value : Vec3(0));
+  }
+  return values;
+}
+
+std::vector<bool> ProbeCollector::is_baked() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<bool> baked(holed_.size(), false);
+  for (const Block& block : blocks_) {
+    const auto [first, count] = block.positions;
+    for (std::size_t i = first; i < first + count; ++i) baked[i] = is_complete(block) && !holed_[i];
+  }
+  return baked;
+}
+
+std::vector<std::size_t> ProbeCollector::holes() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::size_t> holes;
+  for (const Block& block : blocks_) {
+    const auto [first, count] = block.positions;
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (is_complete(block) && holed_[i]) holes.push_back(i);
+    }
+  }
+  return holes;
+}
+
+void ProbeCollector::add(const AtlasRect& rect, const FloatImage& picture, double sign) {
+  const ProbeBlock& block = blocks_[rect.target].positions;
+  const RectSize map = plan_.targets[rect.target].map;
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const int x = static_cast<int>(i) % map.width - rect.x, y = static_cast<int>(i) / map.width - rect.y;
+    const auto texel = picture.texel(x, other_row(y, picture.height()));
+    const Vec3d value(texel[0], texel[1], texel[2]);
+    if (texel[3] > 0.5F && std::isfinite(value.length2())) {
+      sums_[(block.first + i) * directions_ + rect.pass.basis] += value * sign;
+    } else {
+      holed_[block.first + i] = true;
+    }
+  }
+}
+
+double ProbeCollector::sign_of(const BakeTask& task) const {
+  return std::ranges::find(terms_, task.cycles, &ProbeTerm::cycles)->sign;
+}
+
+}  // namespace rnmbake
