@@ -8,12 +8,14 @@
 #include "cli/settings_flags.h"
 #include "pipeline/probes/probes_run.h"
 #include "pipeline/scene/export_scene.h"
+#include "probes/formats/formats.h"
 #include "probes/volume_file.h"
 #include "process/stop.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,15 @@ constexpr std::array probes_settings{
     "allow_dark",      "allow_scripts", "atlas_limit", "memory_limit", "blender",        "scripts",
     "blender_version", "threads",       "timeout",     "retries",      "launch_timeout", "keep_temporary"};
 
+std::string format_names() {
+  std::string names;
+  for (const ProbeFormat& format : probe_formats()) {
+    names += names.empty() ? "" : "|";
+    names += format.name;
+  }
+  return names;
+}
+
 struct ProbesFlags {
   explicit ProbesFlags(CLI::App& command) : settings(command, Purpose::reference, probes_settings) {}
 
@@ -39,10 +50,12 @@ struct ProbesFlags {
   ProbesOptions options;
   bool no_depth = false;
   std::filesystem::path output;
+  std::vector<std::string> to;  // formats of engines
 
   /// Throws Error(usage).
   [[nodiscard]] ProbesOptions checked() const {
     if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+    for (const std::string& name : to) (void)probe_format_named(name);
     ProbesOptions made = options;
     if (spacing > 0) made.places.spacing = spacing;
     if (bounds != "auto") made.places.bounds = parse_bounds(bounds);
@@ -83,7 +96,12 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
   const ReferencePlan plan = plan_reference(config, exported.diffuse_scene.survey.blender_version);
   const ProbesResult result = run_probes(session, exported, plan, options);
   write_volumes(flags.output, result.volumes, result.about);
+  for (const std::string& name : flags.to) {
+    for (const auto& file : write_probe_format(name, result.volumes, flags.output / name))
+      log::info("{}: {}", name, file.string());
+  }
   say_what_came_out(result, flags.output);
+  std::cout << check_text(result.check);
   return static_cast<int>(ExitCode::ok);
 }
 
@@ -126,6 +144,21 @@ std::function<int()> add_probes_command(CLI::App& app) {
       ->check(CLI::IsMember(std::vector<std::string>(probe_lights_names.begin(), probe_lights_names.end()))
                   .description(""))
       ->type_name("all|static|indirect");
+  command
+      ->add_option("--by", flags->by,
+                   "who lights them: the reference tracer, with standard errors, or Blender's Cycles, which "
+                   "follows every material [reference]")
+      ->check(CLI::IsMember({"reference", "blender"}).description(""))
+      ->type_name("reference|blender");
+  command
+      ->add_option("--to", flags->to, "write files for these engines as well, each into a folder of its name")
+      ->delimiter(',')
+      ->type_name(format_names());
+  command
+      ->add_option("--check", flags->options.check,
+                   "places between the probes at which the truth is traced, and held against each encoding; "
+                   "with --by blender as many probes, too; 0: none [200]")
+      ->type_name("N");
   command->add_flag("--two-sided", flags->options.settle.two_sided,
                     "faces have no back: no probe counts as inside of something");
   command->add_flag(

@@ -5,6 +5,7 @@
 #include "base/names.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "pipeline/probes/bake_probes.h"
 #include "probes/fill_probes.h"
 #include "process/stop.h"
 #include "trace/probes/gather_probes.h"
@@ -39,9 +40,8 @@ std::vector<LightProbe*> probes_to_light(std::vector<ProbeVolume>& volumes) {
   return wanted;
 }
 
-void light_by_reference(const BlenderSession& session, const TraceScene& scene, const ReferencePlan& plan,
-                        ProbeLights lights, std::span<LightProbe* const> probes) {
-  const ObjectSettings& settings = session.settings().object;
+ProbeGatherOptions gather_options(const ObjectSettings& settings, const ReferencePlan& plan,
+                                  ProbeLights lights) {
   ProbeGatherOptions options;
   options.directions.assign(probe_directions().begin(), probe_directions().end());
   options.direct = direct_light(lights);
@@ -49,6 +49,11 @@ void light_by_reference(const BlenderSession& session, const TraceScene& scene, 
   options.bounces = plan.bounces;
   options.seed = static_cast<std::uint64_t>(settings.seed);
   options.threads = plan.threads;
+  return options;
+}
+
+void light_by_reference(const TraceScene& scene, const ProbeGatherOptions& options,
+                        std::span<LightProbe* const> probes) {
   std::vector<Vec3> positions;
   for (const LightProbe* probe : probes) positions.emplace_back(probe->position - scene.origin());
   Progress progress("tracing", progress_for(log::is_quiet(), log::is_jsonl()));
@@ -60,6 +65,32 @@ void light_by_reference(const BlenderSession& session, const TraceScene& scene, 
     std::ranges::copy(gathered[i].irradiance, probes[i]->irradiance.begin());
     std::ranges::copy(gathered[i].standard_error, probes[i]->standard_error.begin());
     probes[i]->harmonics = gathered[i].harmonics;
+  }
+}
+
+/// Keys of the objects that move.
+std::vector<std::string> keys_of(const SceneSurvey& survey, const std::vector<char>& dynamic) {
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < dynamic.size(); ++i)
+    if (dynamic[i] != 0) keys.push_back(survey.objects[i].key);
+  return keys;
+}
+
+/// A probe that Blender failed at counts as one that stands in a wall: its neighbours stand in for it.
+void light_by_blender(BlenderSession& session, const ExportResult& exported, ProbeLights lights,
+                      const std::vector<char>& dynamic, std::span<LightProbe* const> probes) {
+  const bool lambert = session.settings().scene.materials == SceneSettings::Materials::lambert;
+  std::vector<Vec3d> positions;
+  for (const LightProbe* probe : probes) positions.push_back(probe->position);
+  const SceneSurvey& survey = exported.diffuse_scene.survey;
+  const BakedProbes baked =
+      bake_probes(session, survey, lambert ? exported.blends->shown : exported.blends->own,
+                  {positions, probe_directions(), lights, keys_of(survey, dynamic)});
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (!baked.baked[i]) probes[i]->validity = 0;
+    std::copy_n(baked.irradiance.begin() + std::ptrdiff_t(i * probe_direction_count), probe_direction_count,
+                probes[i]->irradiance.begin());
+    probes[i]->harmonics = harmonics_of(probes[i]->irradiance);
   }
 }
 
@@ -96,21 +127,34 @@ ProbesResult run_probes(BlenderSession& session, ExportResult& exported, const R
   ProbesResult result;
   result.volumes = place_volumes(diffuse.survey, options.places, dynamic);
   take_out(dynamic, diffuse);
+  if (options.source == ProbeSource::blender && !exported.blends)
+    fail(ExitCode::usage, "--by blender needs the .blend; a .rnmscene holds what the tracer needs alone");
   const TraceScene scene(diffuse, plan.blender_version);
   settle(scene, options.settle, result.volumes);
   const std::vector<LightProbe*> probes = probes_to_light(result.volumes);
   log::info("lighting {} in {}", counted(probes.size(), "probe"), counted(result.volumes.size(), "volume"));
-  light_by_reference(session, scene, plan, options.lights, probes);
-  for (ProbeVolume& volume : result.volumes) fill_probes(volume);
   const ObjectSettings& settings = session.settings().object;
+  const ProbeGatherOptions gathering = gather_options(settings, plan, options.lights);
+  const bool by_blender = options.source == ProbeSource::blender;
+  if (by_blender) {
+    light_by_blender(session, exported, options.lights, dynamic, probes);
+  } else {
+    light_by_reference(scene, gathering, probes);
+  }
+  for (ProbeVolume& volume : result.volumes) fill_probes(volume);
+  if (options.check > 0) {
+    result.check = check_between(scene, result.volumes, gathering, options.check);
+    if (by_blender) result.check.agreement = check_at_probes(scene, result.volumes, gathering, options.check);
+  }
   result.about = {{"scene", file_word(session.settings().scene.file.stem().string())},
                   {"blender", plan.blender_version},
-                  {"source", "reference"},
+                  {"source", by_blender ? "blender" : "reference"},
                   {"lights", probe_lights_names[std::size_t(options.lights)]},
                   {"samples", settings.samples},
                   {"seed", settings.seed},
                   {"bounces", plan.bounces},
                   {"dynamic", options.dynamic}};
+  if (options.check > 0) result.about["check"] = check_json(result.check);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "blender/blender_session.h"
+#include "pipeline/probes/check_probes.h"
 #include "pipeline/probes/place_volumes.h"
 #include "pipeline/probes/settle_probes.h"
 #include "pipeline/reference/reference_plan.h"
@@ -24,11 +25,13 @@ struct ProbesOptions {
   ProbeLights lights = ProbeLights::all;
   ProbeSource source = ProbeSource::reference;
   SettleOptions settle;
+  std::size_t check = 200;  // places between the probes at which the truth is traced; 0: none
 };
 
 struct ProbesResult {
   std::vector<ProbeVolume> volumes;
   nlohmann::json about;  // how they were found, for probes.json
+  ProbeCheck check;
 };
 
 /// Throws as place_volumes(), Error(invalid_input) where every probe stands inside of something, and

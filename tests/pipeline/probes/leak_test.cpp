@@ -1,0 +1,87 @@
+// Light of one room in the next: what leaks through walls between probes.
+#include "pipeline/probes/settle_probes.h"
+#include "probes/fill_probes.h"
+#include "probes/place_probes.h"
+#include "probes/volume_sampler.h"
+#include "trace/probes/gather_probes.h"
+#include "trace/trace_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rnmbake {
+namespace {
+
+/// Walls of a box that face inwards; outwards where it is turned round.
+std::vector<Quad> box(const Vec3& low, const Vec3& high, bool inwards = true) {
+  const Vec3 middle = (low + high) / 2, half = (high - low) / 2;
+  std::vector<Quad> quads = room(1);
+  for (Quad& quad : quads) {
+    for (Vec3& corner : quad) corner = middle + corner * half;
+    if (!inwards) std::swap(quad[1], quad[3]);
+  }
+  return quads;
+}
+
+/// Probes over both rooms, as the command makes them.
+ProbeVolume lit_volume(const DiffuseScene& scene, const ProbeBounds& bounds, double spacing) {
+  const TraceScene traced(scene, "4.3.2");
+  ProbeVolume volume = empty_volume("rooms", grid_in(bounds, spacing));
+  settle_probes(traced, {}, volume);
+  std::vector<Vec3> positions;
+  for (const LightProbe& probe : volume.probes) positions.emplace_back(probe.position - traced.origin());
+  ProbeGatherOptions options;
+  options.directions.assign(probe_directions().begin(), probe_directions().end());
+  options.samples = 256;
+  const auto gathered = gather_probes(traced, positions, options);
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    std::ranges::copy(gathered[i].irradiance, volume.probes[i].irradiance.begin());
+    volume.probes[i].harmonics = gathered[i].harmonics;
+  }
+  fill_probes(volume);
+  return volume;
+}
+
+/// Mean of E/pi over places (x from `low` to `high`, y and z over the middle of a room) and normals.
+double mean_light(const VolumeSampler& sampler, double low, double high) {
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 10; ++j) {
+      for (int k = 0; k < 10; ++k) {
+        const Vec3d place(low + (high - low) * (i + 0.5) / 10, 0.3 + 3.4 * (j + 0.5) / 10, 0.3 + 2.4 * (k + 0.5) / 10);
+        for (const Vec3& normal : probe_directions()) {
+          sum += double(sampler.irradiance(place, normal).y);
+          ++count;
+        }
+      }
+    }
+  }
+  return sum / count;
+}
+
+/// A bright room and a dark one, 10 cm apart: nothing of the one's light reaches the other.
+TEST(Leaks, ThroughAThinWall) {
+  DiffuseScene scene;
+  add_object(scene, "bright", box({0, 0, 0}, {4, 4, 3}), Vec3(0.7F));
+  add_object(scene, "dark", box({4.1F, 0, 0}, {8.1F, 4, 3}), Vec3(0.7F));
+  add_object(scene, "lamp", {level(0.5F, 2.9F, false, {2, 2, 0})}, Vec3(0), Vec3(10));
+  const ProbeBounds bounds{{0, 0, 0}, {8.1, 4, 3}};
+  for (const double spacing : {1.3, 1.0, 0.5}) {
+    const ProbeVolume volume = lit_volume(scene, bounds, spacing);
+    for (std::size_t t = 0; t < 3; ++t) {
+      const VolumeSampler sampler(volume, ProbeEncoding::sh3, static_cast<LeakTest>(t));
+      const double bright = mean_light(sampler, 3.0, 3.9), dark = mean_light(sampler, 4.2, 5.2);
+      std::printf("spacing %g, %s: bright %.4f, leak %.2f %%\n", spacing, leak_test_names[t].data(), bright, 100 * dark / bright);
+      if (static_cast<LeakTest>(t) == LeakTest::visibility) EXPECT_LT(dark, 0.02 * bright) << spacing;
+      if (static_cast<LeakTest>(t) == LeakTest::none) EXPECT_GT(dark, 0.02 * bright) << "the test is too weak";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rnmbake
