@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace rnmbake {
 namespace {
@@ -43,24 +44,49 @@ EncodeCounts& EncodeCounts::operator+=(const EncodeCounts& other) {
   return *this;
 }
 
+void Codec::encode(const Texels& texels, std::span<EncodeCounts> counts) const {
+  std::ranges::fill(counts, EncodeCounts{.texels = 1});
+  std::vector<Vec3> irradiance(texels.irradiance.begin(), texels.irradiance.end());
+  for (std::size_t i = 0; i < texels.count(); ++i) {
+    if (std::ranges::all_of(texels.irradiance_of(i), is_sound)) continue;
+    const std::size_t directions = irradiance.size() / texels.count();
+    std::fill_n(irradiance.begin() + static_cast<std::ptrdiff_t>(i * directions), directions, Vec3(0));
+    counts[i].non_finite = 1;
+  }
+  const Texels sound{irradiance, texels.layers, texels.frames};
+  encode_texels(sound, counts);
+  for (std::size_t i = 0; i < texels.count(); ++i) {
+    if (is_negative(sound.irradiance_of(i), sound.layers_of(i), sound.frames[i]))
+      counts[i].negative_lobes = 1;
+  }
+}
+
 EncodeCounts Codec::encode(std::span<const Vec3> irradiance, std::span<Vec3> layers,
                            const TexelFrame& frame) const {
-  if (!std::ranges::all_of(irradiance, is_sound)) {
-    const std::vector<Vec3> darkness(irradiance.size(), Vec3(0));
-    EncodeCounts counts = encode_texel(darkness, layers, frame);
-    counts.texels = counts.non_finite = 1;
-    return counts;
-  }
-  EncodeCounts counts = encode_texel(irradiance, layers, frame);
-  counts.texels = 1;
+  EncodeCounts counts;
+  encode({irradiance, layers, {&frame, 1}}, {&counts, 1});
+  return counts;
+}
+
+bool Codec::is_negative(std::span<const Vec3> irradiance, std::span<const Vec3> layers,
+                        const TexelFrame& frame) const {
   float greatest = 0;
   for (const Vec3& light : irradiance) greatest = std::max(greatest, max_channel(light));
-  const bool has_negative = std::ranges::any_of(probe_normals(), [&](const Vec3& normal) {
+  const float limit = -1e-3F * greatest;
+  if (least_light(layers, frame) >= limit / 2) return false;  // half: what floats round is far less
+  return std::ranges::any_of(probe_normals(), [&](const Vec3& normal) {
     const Vec3 light = decode(layers, frame.stored(normal));
-    return std::min({light.x, light.y, light.z}) < -1e-3F * greatest;
+    return std::min({light.x, light.y, light.z}) < limit;
   });
-  counts.negative_lobes = has_negative ? 1 : 0;
-  return counts;
+}
+
+double Codec::least_light(std::span<const Vec3>, const TexelFrame&) const {
+  return -std::numeric_limits<double>::infinity();
+}
+
+void TexelCodec::encode_texels(const Texels& texels, std::span<EncodeCounts> counts) const {
+  for (std::size_t i = 0; i < texels.count(); ++i)
+    counts[i] += encode_texel(texels.irradiance_of(i), texels.layers_of(i), texels.frames[i]);
 }
 
 std::size_t needed_direction(const BasisSet& set, const BasisDirection& wanted, const std::string& encoding) {

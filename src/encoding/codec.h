@@ -14,7 +14,7 @@ namespace rnmbake {
 
 struct CodecOptions {
   std::string name;  // one of codec_names(), encoding/codecs/make_codec.h
-  // How sh2, zh3 and geomerics are packed: encoding/packing.h.
+  // How sh2, zh3 and geomerics are packed: encoding/refit/packing.h.
   double range = 0;   // K: |v_i| <= K a for each axis; 0: a and v as they are
   int bits = 0;       // of each of v's components: 8, 16, or 0 for floats
   bool mono = false;  // one v / a for all colours, that of the mean of R, G and B
@@ -33,6 +33,23 @@ struct EncodeCounts {
   EncodeCounts& operator+=(const EncodeCounts& other);
 };
 
+/// Texels one after the other, as many as there are frames.
+struct Texels {
+  std::span<const Vec3> irradiance;    // of each texel E/pi, RGB, at each direction, in the codec's order
+  std::span<Vec3> layers;              // of each texel RGB for each layer: written, always finite
+  std::span<const TexelFrame> frames;  // to the space of the layers
+
+  [[nodiscard]] std::size_t count() const { return frames.size(); }
+  [[nodiscard]] std::span<const Vec3> irradiance_of(std::size_t texel) const {
+    const std::size_t directions = irradiance.size() / count();
+    return irradiance.subspan(texel * directions, directions);
+  }
+  [[nodiscard]] std::span<Vec3> layers_of(std::size_t texel) const {
+    const std::size_t each = layers.size() / count();
+    return layers.subspan(texel * each, each);
+  }
+};
+
 class Codec {
  public:
   Codec() = default;
@@ -46,8 +63,10 @@ class Codec {
   /// Layers may be kept in any space that a TexelFrame leads to; otherwise encode() expects none.
   [[nodiscard]] virtual bool can_rotate() const = 0;
 
-  /// `irradiance`: E/pi, RGB, at each direction that the codec was made for, in their order. Writes RGB for
-  /// each layer, always finite.
+  /// Writes the layers, and the counts of each texel.
+  void encode(const Texels& texels, std::span<EncodeCounts> counts) const;
+
+  /// One texel.
   EncodeCounts encode(std::span<const Vec3> irradiance, std::span<Vec3> layers,
                       const TexelFrame& frame = {}) const;
 
@@ -55,6 +74,22 @@ class Codec {
   [[nodiscard]] virtual Vec3 decode(std::span<const Vec3> layers, const Vec3& normal) const = 0;
 
  private:
+  /// Of finite bakes. Adds to the counts.
+  virtual void encode_texels(const Texels& texels, std::span<EncodeCounts> counts) const = 0;
+
+  /// No channel of decode() is below it at any normal tilted up to 60 degrees; -infinity where that would
+  /// have to be searched. Spares most texels that search.
+  [[nodiscard]] virtual double least_light(std::span<const Vec3> layers, const TexelFrame& frame) const;
+
+  [[nodiscard]] bool is_negative(std::span<const Vec3> irradiance, std::span<const Vec3> layers,
+                                 const TexelFrame& frame) const;
+};
+
+/// A codec that knows one texel at a time.
+class TexelCodec : public Codec {
+ private:
+  void encode_texels(const Texels& texels, std::span<EncodeCounts> counts) const final;
+
   /// Of finite bakes.
   virtual EncodeCounts encode_texel(std::span<const Vec3> irradiance, std::span<Vec3> layers,
                                     const TexelFrame& frame) const = 0;

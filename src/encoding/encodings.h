@@ -33,7 +33,7 @@ inline constexpr Encoding flat_encoding{"flat", flat_layers};  // E/pi of the su
 inline constexpr Encoding rnm_encoding{"rnm", rnm_layers};     // encoding/rnm.h; McTaggart (2004)
 inline constexpr Encoding sh_encoding{"sh", sh_layers};        // encoding/sh.h; Ramamoorthi, Hanrahan (2001)
 inline constexpr Encoding l1_encoding{"l1", l1_layers};        // a and v: encoding/sh2.h, zh3.h, geomerics.h
-inline constexpr Encoding packed_l1_encoding{"l1-packed", packed_l1_layers};  // encoding/packing.h
+inline constexpr Encoding packed_l1_encoding{"l1-packed", packed_l1_layers};  // encoding/refit/packing.h
 inline constexpr Encoding mono_l1_encoding{"l1-mono", mono_l1_layers};
 
 inline constexpr Encoding ahd_encoding{"ahd", ahd_layers};                 // encoding/ahd.h

@@ -12,6 +12,10 @@ namespace rnmbake {
   return {a + v.dot(normal), 1, normal};
 }
 
+[[nodiscard]] inline double sh2_least(double a, double length, double least_cosine) {
+  return a + length * least_cosine;
+}
+
 [[nodiscard]] inline float sh2_decode(float a, const Vec3& v, const Vec3& normal) {
   return a + v.dot(normal);
 }

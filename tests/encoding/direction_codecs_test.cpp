@@ -3,7 +3,7 @@
 #include "encoding/ahd.h"
 #include "encoding/ambient_cube.h"
 #include "encoding/random_light.h"
-#include "encoding/refit.h"
+#include "encoding/refit/refit.h"
 #include "encoding/unity_dominant.h"
 
 #include <algorithm>

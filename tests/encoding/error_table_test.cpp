@@ -23,7 +23,7 @@
 #include "encoding/direction_sets.h"
 #include "encoding/geomerics.h"
 #include "encoding/random_light.h"
-#include "encoding/refit.h"
+#include "encoding/refit/refit.h"
 #include "encoding/sh2.h"
 #include "encoding/zh3.h"
 

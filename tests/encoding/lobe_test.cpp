@@ -2,12 +2,13 @@
 
 #include "encoding/geomerics.h"
 #include "encoding/random_light.h"
-#include "encoding/refit.h"
+#include "encoding/refit/refit.h"
 #include "encoding/sh2.h"
 #include "encoding/zh3.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -90,6 +91,56 @@ TEST(Lobe, TurnWithVAndNormal) {
     const auto turned = [](const Vec3d& d) { return Vec3d(d.y, d.z, d.x); };
     for (const auto& [name, lobe] : kLobes)
       EXPECT_NEAR(lobe(0.7, v, n).value, lobe(0.7, turned(v), turned(n)).value, 1e-13) << name;
+  }
+}
+
+struct Bounded {
+  const char* name;
+  Lobe lobe;
+  LeastOfLobe least;
+  bool is_exact;
+};
+
+TEST(Lobe, NoValueIsBelowItsBound) {
+  constexpr std::array<Bounded, 3> lobes{{{"sh2", sh2_lobe, sh2_least, true},
+                                          {"zh3", zh3_lobe, zh3_least, true},
+                                          {"geomerics", geomerics_lobe, geomerics_least, false}}};
+  constexpr int steps = 2000;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> even(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double a = even(random), length = 3 * a * even(random), from = 2 * even(random) - 1;
+    for (const auto& [name, lobe, least, is_exact] : lobes) {
+      double seen = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= steps; ++k) {
+        const double cosine = from + (1 - from) * k / steps;
+        seen = std::min(seen, lobe(a, {0, 0, length}, {std::sqrt(1 - cosine * cosine), 0, cosine}).value);
+      }
+      const double bound = least(a, length, from);
+      EXPECT_LE(bound, seen + 1e-12) << name;
+      // The parabola's second derivative is at most 6 * 0.55 a, and its least lies within half a step.
+      const double step = (1 - from) / steps;
+      // Geomerics' is that of its constant, where that is above 0.
+      if (is_exact || length > 2 * a) {
+        EXPECT_GE(bound, seen - 6 * 0.55 * a * step * step / 8 - 1e-12) << name;
+      }
+    }
+  }
+}
+
+TEST(Lobe, TheLeastCosineIsThatOfTheEdgeOfTheCone) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d up = random_direction(random), v = random_direction(random) * 2;
+    double seen = 1;
+    const Vec3d side = up.cross(v).normalized(), to_v = side.cross(up);  // towards v, along the ground
+    for (int degrees = 0; degrees <= 60; ++degrees) {
+      const double tilt = degrees * pi / 180;
+      seen = std::min(seen, (up * std::cos(tilt) - to_v * std::sin(tilt)).dot(v) / 2);
+    }
+    const double least = least_cosine_about(up, v, 2);
+    EXPECT_LE(least, seen + 1e-12);
+    EXPECT_GE(least, seen - 2e-4);  // beyond 120 degrees: 1 - cos of a degree
   }
 }
 

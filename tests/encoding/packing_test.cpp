@@ -1,9 +1,9 @@
-#include "encoding/packing.h"
+#include "encoding/refit/packing.h"
 
 #include "encoding/codecs/make_codec.h"
 #include "encoding/geomerics.h"
 #include "encoding/random_light.h"
-#include "encoding/refit.h"
+#include "encoding/refit/refit.h"
 #include "encoding/sh2.h"
 #include "encoding/zh3.h"
 
@@ -37,6 +37,10 @@ FourBakes lit(const Hemisphere& light) {
   FourBakes wanted{};
   for (std::size_t k = 0; k < 4; ++k) wanted[k] = irradiance(light, four_directions()[k]);
   return wanted;
+}
+
+PackedNumbers packed_one(Lobe lobe, const FreeFit& fit, const Packing& packing) {
+  return packed(lobe, {&fit, 1}, packing).front();
 }
 
 /// What a packed fit leaves over the three directions of the basis.
@@ -79,7 +83,7 @@ TEST(Packing, NoPointOfTheBoxIsBetter) {
         free_fit.v = frame.stored(free_fit.v);
         if (!is_out_of_range(free_fit, 2)) continue;
         ++beyond;
-        const PackedNumbers found = packed(lobe, wanted, directions, free_fit, {2, 0});
+        const PackedNumbers found = packed_one(lobe, {wanted, directions, free_fit}, {2, 0});
         const Vec3d ratio = unpacked_ratio(found.t, 2);
         EXPECT_NEAR(found.a * lobe(1, ratio, directions[0]).value, wanted[0], 1e-9 * wanted[0]);
         const double greatest = *std::ranges::max_element(wanted);
@@ -100,7 +104,7 @@ TEST(Packing, StaysWithinAndKeepsFlatWhateverTheBits) {
       FourNumbers free_fit = lobe == sh2_lobe ? linear_numbers(wanted) : refit(lobe, wanted);
       free_fit.v = tilted_frame().stored(free_fit.v);
       for (const int bits : {0, 8, 16}) {
-        const PackedNumbers found = packed(lobe, wanted, directions, free_fit, {2, bits});
+        const PackedNumbers found = packed_one(lobe, {wanted, directions, free_fit}, {2, bits});
         const double steps = bits > 0 ? std::ldexp(1.0, bits) - 1 : 0;
         for (int axis = 0; axis < 3; ++axis) {
           EXPECT_GE(found.t[axis], 0);
@@ -117,7 +121,8 @@ TEST(Packing, StaysWithinAndKeepsFlatWhateverTheBits) {
 TEST(Packing, DarkFlatIsDarkness) {
   for (const double flat : {0.0, -1.0}) {
     const FourBakes wanted{flat, 1, 2, 3};
-    const PackedNumbers found = packed(zh3_lobe, wanted, four_directions(), refit(zh3_lobe, wanted), {2, 8});
+    const PackedNumbers found =
+        packed_one(zh3_lobe, {wanted, four_directions(), refit(zh3_lobe, wanted)}, {2, 8});
     EXPECT_EQ(found.a, 0);
     EXPECT_EQ(found.t, Vec3d(0.5));
   }

@@ -31,7 +31,7 @@ OWNED = {
     "CLI/": {"cli"},
     "embree": {"rays"},
     "tbb/": {"trace", "ssbump", "pipeline"},
-    "hwy/": {"ssbump"},
+    "hwy/": {"encoding", "ssbump"},
     "Eigen/": {"encoding"},
     "xxhash.h": {"base"},
     "utf8proc.h": {"base"},

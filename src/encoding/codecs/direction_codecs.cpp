@@ -4,7 +4,7 @@
 #include "encoding/codecs/lobe_codec.h"
 #include "encoding/encodings.h"
 #include "encoding/fit/gauss_newton.h"
-#include "encoding/refit.h"
+#include "encoding/refit/refit.h"
 #include "encoding/sh2.h"
 #include "encoding/unity_dominant.h"
 
@@ -30,7 +30,7 @@ Vec3d unit_or_up(const Vec3d& v) {
   return length > 0 ? v / length : Vec3d(0, 0, 1);
 }
 
-class AhdCodec : public Codec {
+class AhdCodec : public TexelCodec {
  public:
   explicit AhdCodec(const FourPlaces& places) : places_(places) {}
 
@@ -94,7 +94,7 @@ Vec3d dominant_on_sphere(const FourBakes& bakes, const Vec3d& start) {
   return Vec3d(found[0], found[1], found[2]).normalized();
 }
 
-class DominantCodec : public Codec {
+class DominantCodec : public TexelCodec {
  public:
   explicit DominantCodec(const FourPlaces& places) : places_(places) {}
 

@@ -79,7 +79,7 @@ LeastSquares sound_fit_of(const Functions& functions, const std::string& encodin
   return fit;
 }
 
-class LinearCodec : public Codec {
+class LinearCodec : public TexelCodec {
  public:
   LinearCodec(const Functions& functions, LeastSquares fit)
       : functions_(functions),
@@ -111,7 +111,7 @@ class LinearCodec : public Codec {
   std::vector<std::string> layers_;
 };
 
-class SignedCodec : public Codec {
+class SignedCodec : public TexelCodec {
  public:
   SignedCodec(LeastSquares sh3, std::size_t flat) : sh3_(std::move(sh3)), flat_(flat) {}
 

@@ -8,7 +8,7 @@
 namespace rnmbake {
 namespace {
 
-class FlatCodec : public Codec {
+class FlatCodec : public TexelCodec {
  public:
   explicit FlatCodec(std::size_t flat) : flat_(flat) {}
 
@@ -29,7 +29,7 @@ class FlatCodec : public Codec {
 
 enum class RnmDialect { clipped, scaled_to_flat, bakery };
 
-class RnmCodec : public Codec {
+class RnmCodec : public TexelCodec {
  public:
   RnmCodec(RnmDialect dialect, const std::array<std::size_t, 3>& maps, std::size_t flat)
       : dialect_(dialect), maps_(maps), flat_(flat) {}

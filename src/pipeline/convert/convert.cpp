@@ -36,7 +36,7 @@ bool keeps_bakes(const LightmapMetadata& metadata) {
 }
 
 /// The way back: each layer is the bake of one direction.
-class BakesCodec : public Codec {
+class BakesCodec : public TexelCodec {
  public:
   explicit BakesCodec(const BasisSet& directions) {
     for (const BasisDirection& basis : directions.directions) layers_.push_back(basis.name);
@@ -205,16 +205,15 @@ class Conversion {
     std::mutex mutex;
     tbb::parallel_for(tbb::blocked_range<int>(0, end - begin), [&](const tbb::blocked_range<int>& range) {
       ConvertCounts counts;
-      TexelBuffers buffers{std::vector<Vec3>(texels_.layer_count()),
-                           std::vector<Vec3>(directions_.directions.size()),
-                           std::vector<Vec3>(codec_->layers().size())};
+      RowBuffers row(texels_.layer_count(), directions_.directions.size(), codec_->layers().size(), width);
       for (int y = range.begin(); y < range.end(); ++y) {
+        encode_row(pictures, y, begin + y, row);
+        float* to = &out[std::size_t(y) * width * channels];
         for (int x = 0; x < width; ++x) {
-          const bool is_covered = coverage == nullptr || coverage->pixels.texel(x, y)[0] > 0.5F;
-          for (std::size_t i = 0; i < pictures.size(); ++i) buffers.values[i] = vec3_at(*pictures[i], x, y);
-          float* to = &out[(std::size_t(y) * width + x) * channels];
-          to = write_texel(buffers, x, begin + y, is_covered, counts, to);
+          ConvertCounts own{.encode = row.counts[x], .without_frame = row.has_frame[x] ? 0U : 1U};
+          to = write_layers(row.layers_of(x), own, to);
           for (const Layer* layer : kept) to = std::ranges::copy(layer->pixels.texel(x, y), to).out;
+          if (coverage == nullptr || coverage->pixels.texel(x, y)[0] > 0.5F) counts += own;
         }
       }
       const std::scoped_lock lock(mutex);
@@ -223,29 +222,52 @@ class Conversion {
     return out;
   }
 
-  struct TexelBuffers {
-    std::vector<Vec3> values, irradiance, layers;
+  /// A row of texels, as the codec takes them.
+  struct RowBuffers {
+    RowBuffers(std::size_t source_layers, std::size_t directions, std::size_t layers, int width)
+        : values(source_layers),
+          irradiance(directions * width),
+          layers(layers * width),
+          frames(width),
+          has_frame(width),
+          counts(width) {}
+
+    [[nodiscard]] std::span<const Vec3> layers_of(int x) const {
+      const std::size_t each = layers.size() / frames.size();
+      return std::span(layers).subspan(x * each, each);
+    }
+
+    std::vector<Vec3> values;  // of one texel
+    std::vector<Vec3> irradiance, layers;
+    std::vector<TexelFrame> frames;
+    std::vector<bool> has_frame;
+    std::vector<EncodeCounts> counts;
   };
 
-  float* write_texel(TexelBuffers& buffers, int x, int y, bool is_covered, ConvertCounts& counts,
-                     float* to) const {
-    std::optional<TexelFrame> world;
-    if (needs_frames_) world = frames_.nearest(x, y);
-    texels_.irradiance(buffers.values, from_world_ ? world.value_or(TexelFrame{}) : TexelFrame{},
-                       buffers.irradiance);
-    if (options_.world && !world)  // the same from everywhere: what is left of light without a frame
-      std::ranges::fill(buffers.irradiance, buffers.irradiance.front());
-    ConvertCounts own;
-    own.encode =
-        codec_->encode(buffers.irradiance, buffers.layers, options_.world && world ? *world : TexelFrame{});
-    own.without_frame = needs_frames_ && !world ? 1 : 0;
-    for (const Vec3& layer : buffers.layers) {
+  /// `y`: the row within the pictures, `map_y`: within the lightmap.
+  void encode_row(std::span<const FloatImage* const> pictures, int y, int map_y, RowBuffers& row) const {
+    const std::size_t directions = directions_.directions.size();
+    for (int x = 0; x < source_.width(); ++x) {
+      for (std::size_t i = 0; i < pictures.size(); ++i) row.values[i] = vec3_at(*pictures[i], x, y);
+      std::optional<TexelFrame> world;
+      if (needs_frames_) world = frames_.nearest(x, map_y);
+      const auto irradiance = std::span(row.irradiance).subspan(x * directions, directions);
+      texels_.irradiance(row.values, from_world_ ? world.value_or(TexelFrame{}) : TexelFrame{}, irradiance);
+      if (options_.world && !world)  // the same from everywhere: what is left of light without a frame
+        std::ranges::fill(irradiance, irradiance.front());
+      row.frames[x] = options_.world && world ? *world : TexelFrame{};
+      row.has_frame[x] = world || !needs_frames_;
+    }
+    codec_->encode({row.irradiance, row.layers, row.frames}, row.counts);
+  }
+
+  float* write_layers(std::span<const Vec3> layers, ConvertCounts& counts, float* to) const {
+    for (const Vec3& layer : layers) {
       for (int c = 0; c < 3; ++c, ++to) {
         *to = layer[c];
-        if (options_.depth == Depth::half && clamp_to_half(*to)) ++own.beyond_half;
+        if (options_.depth == Depth::half && clamp_to_half(*to)) ++counts.beyond_half;
       }
     }
-    if (is_covered) counts += own;
     return to;
   }
 

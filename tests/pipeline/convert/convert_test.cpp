@@ -15,6 +15,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 namespace rnmbake {
 namespace {
@@ -219,11 +220,16 @@ TEST_F(Convert, SplitsIntoOneFileForEachLayer) {
   EXPECT_LT(bakes_apart(source, at("back.exr")), few_roundings);
 }
 
-TEST_F(Convert, GivesTheSameBytesAgain) {
-  const auto source = written("baked.exr", baked());
-  (void)convert(source, "geomerics", "one.exr");
-  (void)convert(source, "geomerics", "two.exr");
-  EXPECT_EQ(read_text(at("one.exr")), read_text(at("two.exr")));
+TEST_F(Convert, GivesTheSameBytesWhateverTheThreads) {
+  const LightmapPlace place{"floor", {written("baked.exr", baked())}, {}};
+  for (const CodecOptions& codec :
+       {CodecOptions{"zh3"}, {"geomerics"}, {"zh3", 2, 8}, {"geomerics", 2, 16, true}, {"ahd"}}) {
+    for (const int threads : {1, 2}) {
+      const auto file = at(threads == 1 ? "one.exr" : "two.exr");
+      tbb::task_arena(threads).execute([&] { (void)convert_lightmap(place, {codec}, file); });
+    }
+    EXPECT_EQ(read_text(at("one.exr")), read_text(at("two.exr"))) << codec.name << ' ' << codec.range;
+  }
 }
 
 TEST_F(Convert, WritesDarknessForWhatIsNoNumber) {

@@ -1,10 +1,11 @@
-// encoding/refit.h - the four numbers with which a decoder returns what was baked.
+// encoding/refit/refit.h - the four numbers with which a decoder returns what was baked.
 #pragma once
 
-#include "encoding/flat_kept.h"
 #include "encoding/lobe.h"
+#include "encoding/refit/flat_kept.h"
 
 #include <array>
+#include <span>
 
 namespace rnmbake {
 
@@ -23,5 +24,8 @@ namespace rnmbake {
 /// bake is above 0. Feeding a lobe that is not linear with the interpolation itself errs by much: that fits a
 /// hemisphere, where these decoders expect the harmonics of the light.
 [[nodiscard]] FourNumbers refit(Lobe lobe, const FourBakes& bakes);
+
+/// The same of many, of which the first Newton's steps are taken side by side.
+void refit(Lobe lobe, std::span<const FourBakes> bakes, std::span<FourNumbers> numbers);
 
 }  // namespace rnmbake
