@@ -153,8 +153,6 @@ float VolumeSampler::leak_weight(std::size_t probe, const Vec3d& place, const Ve
   const float distance = from.length();
   if (!(distance > 0)) return 1;
   const Vec3 direction = from / distance;
-  // Probes behind the surface count little, but where all are, they count alike.
-  const float facing = (1 - direction.dot(normal)) / 2;
   const ProbeDepths& depths = volume_.depths;
   const auto side = static_cast<std::size_t>(depths.side);
   const Vec2 at = octahedral(direction);
@@ -162,7 +160,7 @@ float VolumeSampler::leak_weight(std::size_t probe, const Vec3d& place, const Ve
     return static_cast<std::size_t>(std::clamp(int((x + 1) / 2 * float(side)), 0, depths.side - 1));
   };
   const std::size_t i = (probe * side + texel(at.y)) * side + texel(at.x);
-  return (facing * facing + 0.05F) * visible_share(distance, depths.mean[i], depths.square[i]);
+  return visible_share(distance, depths.mean[i], depths.square[i]);
 }
 
 Vec3 VolumeSampler::irradiance(const Vec3d& place, const Vec3& normal) const {

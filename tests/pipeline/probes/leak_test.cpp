@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,7 +52,8 @@ double mean_light(const VolumeSampler& sampler, double low, double high) {
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 10; ++j) {
       for (int k = 0; k < 10; ++k) {
-        const Vec3d place(low + (high - low) * (i + 0.5) / 10, 0.3 + 3.4 * (j + 0.5) / 10, 0.3 + 2.4 * (k + 0.5) / 10);
+        const Vec3d place(low + (high - low) * (i + 0.5) / 10, 0.3 + 3.4 * (j + 0.5) / 10,
+                          0.3 + 2.4 * (k + 0.5) / 10);
         for (const Vec3& normal : probe_directions()) {
           sum += double(sampler.irradiance(place, normal).y);
           ++count;
@@ -76,9 +76,11 @@ TEST(Leaks, ThroughAThinWall) {
     for (std::size_t t = 0; t < 3; ++t) {
       const VolumeSampler sampler(volume, ProbeEncoding::sh3, static_cast<LeakTest>(t));
       const double bright = mean_light(sampler, 3.0, 3.9), dark = mean_light(sampler, 4.2, 5.2);
-      std::printf("spacing %g, %s: bright %.4f, leak %.2f %%\n", spacing, leak_test_names[t].data(), bright, 100 * dark / bright);
-      if (static_cast<LeakTest>(t) == LeakTest::visibility) EXPECT_LT(dark, 0.02 * bright) << spacing;
-      if (static_cast<LeakTest>(t) == LeakTest::none) EXPECT_GT(dark, 0.02 * bright) << "the test is too weak";
+      if (static_cast<LeakTest>(t) == LeakTest::visibility) {
+        EXPECT_LT(dark, 0.02 * bright) << spacing;
+      } else if (spacing >= 1) {  // the nearer the probes are, the fewer see the wall from its other side
+        EXPECT_GT(dark, 0.02 * bright) << "the test is too weak";
+      }
     }
   }
 }
