@@ -98,7 +98,7 @@ set_tests_properties(report.study PROPERTIES LABELS unit TIMEOUT 300)
 add_executable(sample_formats ${CMAKE_CURRENT_SOURCE_DIR}/probes/formats/sample_formats.cpp)
 target_include_directories(sample_formats PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(sample_formats PRIVATE probes rnm_warnings)
-foreach(CHECK formats threejs)
+foreach(CHECK formats more_formats threejs)
   add_test(NAME probes.${CHECK}
     COMMAND ${CMAKE_COMMAND} -E env SAMPLE_FORMATS=$<TARGET_FILE:sample_formats> CXX=${CMAKE_CXX_COMPILER}
             $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/probes/formats/${CHECK}_check.py -v)

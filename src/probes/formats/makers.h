@@ -14,7 +14,11 @@ namespace rnmbake {
 
 [[nodiscard]] std::vector<FormatFile> bevy_files(std::span<const ProbeVolume> volumes);
 [[nodiscard]] std::vector<FormatFile> cpp_files(std::span<const ProbeVolume> volumes);
+[[nodiscard]] std::vector<FormatFile> gltf_files(std::span<const ProbeVolume> volumes);
+[[nodiscard]] std::vector<FormatFile> godot_files(std::span<const ProbeVolume> volumes);
 [[nodiscard]] std::vector<FormatFile> threejs_files(std::span<const ProbeVolume> volumes);
+[[nodiscard]] std::vector<FormatFile> unity_files(std::span<const ProbeVolume> volumes);
+[[nodiscard]] std::vector<FormatFile> vrc_files(std::span<const ProbeVolume> volumes);
 
 /// A file of src/probes/formats/shipped/, which travels inside the binary.
 [[nodiscard]] FormatFile shipped_file(const std::string& name);

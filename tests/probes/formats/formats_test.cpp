@@ -111,7 +111,7 @@ TEST(ProbeFormats, NamesAreKnownOrGuessed) {
 TEST(ProbeFormats, BoxesAlonePassWhereOnlyBoxesFit) {
   const TempFolder folder;
   const std::vector<ProbeVolume> volumes{sample_points()};
-  for (const std::string name : {"bevy"}) {
+  for (const std::string name : {"bevy", "vrc", "godot"}) {
     std::string message;
     EXPECT_EQ(code_of([&] { write_probe_format(name, volumes, folder.path() / name); }, &message),
               ExitCode::unsupported);

@@ -52,6 +52,7 @@ inline ProbeVolume sample_box(const std::string& name, const ProbeGrid& grid, bo
 
 /// "room": one cell within the walls. "hall": 2 x 3 x 4 probes, unequal steps, told apart; its probe (1, 2,
 /// 3) is buried. "turned": 3 x 2 x 2, told apart, 30 degrees from x towards y.
+/// "single": one probe.
 inline std::vector<ProbeVolume> sample_boxes() {
   ProbeGrid room;
   room.counts = {2, 2, 2};
@@ -66,8 +67,11 @@ inline std::vector<ProbeVolume> sample_boxes() {
   turned.first = {5, 6, 7};
   const double c = std::sqrt(0.75), s = 0.5;
   turned.steps = {Vec3d(2 * c, 2 * s, 0), Vec3d(-s, c, 0), Vec3d(0, 0, 1.5)};
+  ProbeGrid single;
+  single.first = {3, -4, 5};
+  single.steps = {Vec3d(2, 0, 0), Vec3d(0, 3, 0), Vec3d(0, 0, 4)};
   std::vector<ProbeVolume> volumes{sample_box("room", room, false), sample_box("hall", hall, true),
-                                   sample_box("turned", turned, true)};
+                                   sample_box("turned", turned, true), sample_box("single", single, false)};
   volumes[1].probes[hall.index(1, 2, 3)].validity = 0.125F;
   return volumes;
 }
