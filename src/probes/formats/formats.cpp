@@ -12,16 +12,16 @@ namespace rnmbake {
 
 std::span<const ProbeFormat> probe_formats() {
   static constexpr std::array<ProbeFormat, 7> formats{{
-      {"threejs", "three.js: LightProbeGrid, a loader and a page to look at",
+      {"threejs", "three.js' LightProbeGrid with a loader and a page to look at",
        "light_probes.json, STEM.bin, probes.js, index.html", threejs_files},
-      {"bevy", "Bevy: IrradianceVolume", "STEM.vxgi.ktx2, probes.rs", bevy_files},
-      {"cpp", "an engine of your own: a file and a C++ header that looks it up",
-       "STEM.rnmprobes, rnmbake_probes.h", cpp_files},
-      {"gltf", "glTF: points with the light in their attributes", "light_probes.glb", gltf_files},
-      {"vrc", "VRC Light Volumes 2, of VRChat",
+      {"bevy", "Bevy's IrradianceVolume", "STEM.vxgi.ktx2, probes.rs", bevy_files},
+      {"cpp", "a file and a C++ header that looks light up in it", "STEM.rnmprobes, rnmbake_probes.h",
+       cpp_files},
+      {"gltf", "points with the light in their attributes", "light_probes.glb", gltf_files},
+      {"vrc", "VRC Light Volumes 2 of VRChat",
        "STEM_0.asset, STEM_1.asset, STEM_2.asset, RnmbakeLightVolumes.cs", vrc_files},
-      {"godot", "Godot 4: LightmapGIData, for objects that move", "STEM.tres", godot_files},
-      {"unity", "Unity: light probes", "light_probes_unity.json, RnmbakeLightProbes.cs", unity_files},
+      {"godot", "Godot 4's LightmapGIData", "STEM.tres", godot_files},
+      {"unity", "Unity's light probes", "light_probes_unity.json, RnmbakeLightProbes.cs", unity_files},
   }};
   return formats;
 }
