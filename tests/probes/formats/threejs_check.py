@@ -68,7 +68,9 @@ def three_in(folder):
     if not shutil.which("npm"):
         print("SKIPPED: no npm to fetch three with; install the package npm", file=sys.stderr)
         raise unittest.SkipTest("SKIPPED: no npm")
-    outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1", THREE],
+    # Two attempts of ten seconds for each of two files at most.
+    outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1",
+                              "--fetch-timeout=10000", "--fetch-retry-maxtimeout=1000", THREE],
                              cwd=folder, timeout=120, capture_output=True, text=True)
     if outcome.returncode:
         print(f"SKIPPED: npm cannot fetch {THREE}: {outcome.stderr.strip().splitlines()[-1:]}", file=sys.stderr)
