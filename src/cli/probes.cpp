@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/settings_flags.h"
+#include "pipeline/probes/picture_probe.h"
 #include "pipeline/probes/probes_run.h"
 #include "pipeline/scene/export_scene.h"
 #include "probes/formats/formats.h"
@@ -50,7 +51,8 @@ struct ProbesFlags {
   ProbesOptions options;
   bool no_depth = false;
   std::filesystem::path output;
-  std::vector<std::string> to;  // formats of engines
+  std::vector<std::string> to;              // formats of engines
+  std::vector<std::filesystem::path> from;  // pictures instead of a scene
 
   /// Throws Error(usage).
   [[nodiscard]] ProbesOptions checked() const {
@@ -79,6 +81,19 @@ void say_what_came_out(const ProbesResult& result, const std::filesystem::path& 
               grid.steps[2].length());
   }
   log::info("{}", (folder / "probes.json").string());
+}
+
+/// One probe out of pictures.
+int probe_from_pictures(const ProbesFlags& flags) {
+  if (flags.output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+  const DistantLight light = read_light(flags.from);
+  ProbeVolume volume = empty_volume("probe", std::vector{Vec3d(0)});
+  volume.probes.front() = probe_of(light);
+  make_folders(flags.output);
+  write_volumes(flags.output, {volume}, {{"source", "pictures"}});
+  std::cout << picture_text(cubes_of(light), study_probe_sphere(light));
+  log::info("{}", (flags.output / "probes.json").string());
+  return static_cast<int>(ExitCode::ok);
 }
 
 int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
@@ -166,7 +181,16 @@ std::function<int()> add_probes_command(CLI::App& app) {
       "leave out the distances around each probe, by which light is kept from leaking through walls");
   command->add_option("-o,--output", flags->output, "folder for probes.json and the pictures of each volume")
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--from", flags->from,
+          "instead of a scene: a picture of the light around a point in latitudes and longitudes, or "
+          "six faces of a cube map, px,nx,py,ny,pz,nz as OpenGL has them; prints how far ambient "
+          "cubes by several recipes are apart")
+      ->delimiter(',')
+      ->type_name("FILE,...");
   return [flags] {
+    if (!flags->from.empty()) return probe_from_pictures(*flags);
     const auto config = flags->settings.resolve();
     if (!config) return static_cast<int>(ExitCode::ok);
     StopRequest::install();

@@ -11,7 +11,7 @@ enum class ProbeLights {
   no_lamps,  // all but what comes straight from lamp objects (sun, point, spot, area), which an engine keeps
              // as lights of its own; what surfaces send on of them stays in, as do glowing surfaces and the
              // sky
-  bounced,  // what a surface has sent on, or a volume: nothing straight from lamps, glowing surfaces or sky
+  bounced,   // what a surface has sent on, or a volume: nothing straight from lamps, glowing surfaces or sky
 };
 
 /// As flags and files say it.

@@ -59,7 +59,7 @@ struct LightProbe {
   State state = State::sound;     // moved: off its place, out of geometry; filled: from its neighbours
 };
 
-/// Distances that a probe's rays go, over octahedral maps; for tests of visibility (probes/lookup.h).
+/// Distances that a probe's rays go, over octahedral maps; for tests of visibility (probes/volume_sampler.h).
 struct ProbeDepths {
   int side = 0;               // texels of each map; 0: there are none
   std::vector<float> mean;    // [probes][side][side], units of the scene, cut off at some reach

@@ -1,8 +1,8 @@
 // Probes: closed forms at points that light reaches from all around.
 #include "trace/probes/gather_probes.h"
 
-#include "sampling/octahedral.h"
 #include "encoding/sh.h"
+#include "sampling/octahedral.h"
 #include "trace/probes/surroundings.h"
 #include "trace/trace_scenes.h"
 

@@ -146,14 +146,8 @@ Vec3 probe_direction(int x, int y, int width, int height) {
   return Vec3(direction_at(from_top, -azimuth));
 }
 
-FloatImage read_probe(const std::filesystem::path& file) {
-  const LayeredImage picture = read_image(file);
-  FloatImage colours = colours_of(picture, file.string());
-  if (colours.width() != 2 * colours.height()) {
-    fail(ExitCode::invalid_input,
-         "{} is {} x {}; a probe is a picture in latitudes and longitudes, twice as wide as high",
-         file.string(), colours.width(), colours.height());
-  }
+FloatImage read_colours(const std::filesystem::path& file) {
+  FloatImage colours = colours_of(read_image(file), file.string());
   for (int y = 0; y < colours.height(); ++y) {
     for (int x = 0; x < colours.width(); ++x) {
       const Vec3 colour = vec3_at(colours, x, y);
@@ -162,6 +156,16 @@ FloatImage read_probe(const std::filesystem::path& file) {
              file.string(), x, y);
       }
     }
+  }
+  return colours;
+}
+
+FloatImage read_probe(const std::filesystem::path& file) {
+  FloatImage colours = read_colours(file);
+  if (colours.width() != 2 * colours.height()) {
+    fail(ExitCode::invalid_input,
+         "{} is {} x {}; a probe is a picture in latitudes and longitudes, twice as wide as high",
+         file.string(), colours.width(), colours.height());
   }
   return colours;
 }
@@ -196,7 +200,8 @@ ProbeTable study_probe_sphere(const DistantLight& light, int rows) {
   const AmbientCube at_axes =
       ambient_cube_of([&](const Vec3& axis) { return irradiance(light, Vec3(0), std::array{axis}).front(); });
   const AmbientCube nearest = fit_ambient_cube(sphere.normals, sphere.truth);
-  for (const auto& [label, cube] : {std::pair{"ambient cube, exact at its axes", at_axes},
+  for (const auto& [label, cube] : {std::pair{"ambient cube, mean of each face", face_means(light)},
+                                    std::pair{"ambient cube, exact at its axes", at_axes},
                                     std::pair{"ambient cube, least squares", nearest}}) {
     table.errors.push_back(errors_of(
         label, 6, sphere, [&cube = cube](const Vec3& normal) { return ambient_cube_decode(cube, normal); }));

@@ -20,8 +20,12 @@ namespace rnmbake {
 /// Sums above which a probe's texels are not told apart: 1.4 degrees.
 inline constexpr int most_probe_rows = 128;
 
-/// A picture of radiance in latitudes and longitudes, twice as wide as high. Throws as read_image(), and
-/// Error(invalid_input) for other shapes and for values that are no numbers.
+/// The first layer with three channels. Throws as read_image(), and Error(invalid_input) for values that are
+/// no numbers, or beyond 1e15.
+[[nodiscard]] FloatImage read_colours(const std::filesystem::path& file);
+
+/// A picture of radiance in latitudes and longitudes, twice as wide as high. Throws as read_colours(),
+/// and Error(invalid_input) for other shapes.
 [[nodiscard]] FloatImage read_probe(const std::filesystem::path& file);
 
 /// Its texels as sources, summed into `rows` rows where there are more.
