@@ -51,7 +51,9 @@ def report(data):
     return table(["what", "wall s", "CPU s", "speed beside read and write", "MiB"], lines) + (
         f"\n\n{SIDE} x {SIDE} texels, flat + 3 and coverage, half, zip; oiiotool reads and writes the same file. The goal is 0.8 "
         "for all. `convert` and `decode` of one normal work on 64 rows at a time, whatever the height. "
-        "Refits (zh3, geomerics, packed forms) solve four equations for each colour of a texel, those of a vector's worth "
-        "of texels side by side: Newton's steps, and within a range the damped Gauss-Newton steps of what does not fit it, "
-        "with the machine's widest instructions. What does not arrive by Newton's steps goes on alone. A bound of the lobe "
-        "over all normals that are asked spares most texels the search for negative values, half of the evaluations before.")
+        "Refits (zh3, geomerics, packed forms) solve four equations for each colour of a texel, a vector's worth of colours side "
+        "by side with the machine's widest instructions: Newton's steps, and damped Gauss-Newton ones for what a range does not "
+        "hold; what Newton's do not solve goes on alone. A bound of the lobe over all normals that are asked spares most texels "
+        "the search for negative values. Processor seconds of packed zh3 by instructions, once, beside 0.95 of reading and "
+        "writing: AVX-512 1.4, AVX2 1.6, SSE4 2.0, SSE2 2.7; one after the other 3.9. Tried without gain: exponentials inlined "
+        "into the steps instead of called.")

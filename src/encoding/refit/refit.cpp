@@ -78,7 +78,7 @@ Vec3d direction_of(const Vec3d& v) {
 /// The linear interpolation, where it can be of light: no light has harmonics with |v| > 2a, and from there
 /// the steps rarely find back.
 FourNumbers likely_start(const FourBakes& scaled) {
-  const FourNumbers linear = linear_numbers(scaled);
+  FourNumbers linear = linear_numbers(scaled);
   if (linear.a > least_a && linear.v.length() < 2 * linear.a) return linear;
   return start_at(1.5, direction_of(linear.v), scaled[0]);
 }
