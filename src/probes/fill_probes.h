@@ -14,8 +14,9 @@ inline constexpr float least_validity = 0.75F;
   return probe.validity >= least_validity;
 }
 
-/// Gives each probe of a grid that is not valid the mean light of its neighbours along the axes, from those
-/// that are valid outwards; keeps its validity. Returns the number of probes filled; 0 where none is valid.
+/// Gives each probe of a grid that is not valid the mean light of its neighbours along the axes, or along the
+/// edges of its tree's cells, from those that are valid outwards; keeps its validity. Returns the number of
+/// probes filled; 0 where none is valid.
 std::size_t fill_probes(ProbeVolume& volume);
 
 }  // namespace rnmbake

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,12 +67,25 @@ struct ProbeDepths {
   std::vector<float> square;  // the mean of their squares
 };
 
+/// The space between eight probes, or eight smaller cells.
+struct ProbeCell {
+  std::array<std::uint32_t, 8> corners{};  // numbers of probes, x fastest
+  std::uint32_t children = 0;              // number of the first of its eight cells, x fastest; 0: none
+};
+
+/// Octrees in the cells of a grid, whose probes stand closer where light varies (probes/probe_tree.h).
+struct ProbeTree {
+  std::vector<ProbeCell> cells;  // the grid's own first, counts - 1 of each axis, x fastest; no child before
+                                 // its parent
+};
+
 /// A box of probes, or points alone.
 struct ProbeVolume {
   std::string name;
   std::optional<ProbeGrid> grid;
-  std::vector<LightProbe> probes;  // of a grid: in the order of ProbeGrid::index()
+  std::vector<LightProbe> probes;  // of a grid: in the order of ProbeGrid::index(), then those of the tree
   ProbeDepths depths;
+  std::optional<ProbeTree> tree = std::nullopt;  // of a grid
 };
 
 }  // namespace rnmbake

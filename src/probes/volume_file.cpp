@@ -6,6 +6,7 @@
 #include "base/names.h"
 #include "base/read_file.h"
 #include "image/layered_exr.h"
+#include "probes/tree_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,7 @@ struct PictureSize {
 };
 
 PictureSize size_of(const ProbeVolume& volume) {
+  if (volume.tree) return {square_width(volume.probes.size()), square_height(volume.probes.size())};
   if (!volume.grid) return {static_cast<int>(volume.probes.size()), 1};
   const auto& counts = volume.grid->counts;
   return {counts[0], counts[1] * counts[2]};
@@ -111,6 +113,11 @@ json json_of(const ProbeVolume& volume, const std::string& stem) {
                      {"first", json_of(grid.first)},
                      {"steps", {json_of(grid.steps[0]), json_of(grid.steps[1]), json_of(grid.steps[2])}}};
   }
+  if (volume.tree) {
+    entry["tree"] = {{"file", stem + "_tree.exr"},
+                     {"cells", volume.tree->cells.size()},
+                     {"levels", depth_of(*volume.grid, *volume.tree)}};
+  }
   if (volume.depths.side > 0) entry["depth"] = {{"file", stem + "_depth.exr"}, {"side", volume.depths.side}};
   return entry;
 }
@@ -175,10 +182,15 @@ LightProbe::State state_of(float number) {
   return number == 0 ? State::sound : number == 1 ? State::moved : State::filled;
 }
 
+std::size_t texels_of(const ProbeVolume& volume) {
+  const auto [width, height] = size_of(volume);
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
 void read_probes(const LayeredImage& image, ProbeVolume& volume) {
-  const std::size_t count = volume.probes.size();
+  const std::size_t count = volume.probes.size(), picture = texels_of(volume);
   const auto each = [&](const std::string& layer, const std::function<void(LightProbe&, const Vec3&)>& take) {
-    const LayerReader values(image, layer, 3, count);
+    const LayerReader values(image, layer, 3, picture);
     for (std::size_t i = 0; i < count; ++i) take(volume.probes[i], values.vec3(i));
   };
   for (std::size_t k = 0; k < probe_direction_count; ++k) {
@@ -188,7 +200,7 @@ void read_probes(const LayeredImage& image, ProbeVolume& volume) {
   for (std::size_t k = 0; k < 9; ++k)
     each("sh" + std::to_string(k), [k](LightProbe& probe, const Vec3& v) { probe.harmonics[k] = v; });
   each("position", [](LightProbe& probe, const Vec3& v) { probe.position = Vec3d(v); });
-  const LayerReader validity(image, "validity", 1, count), state(image, "state", 1, count);
+  const LayerReader validity(image, "validity", 1, picture), state(image, "state", 1, picture);
   for (std::size_t i = 0; i < count; ++i) {
     volume.probes[i].validity = validity[i][0];
     volume.probes[i].state = state_of(state[i][0]);
@@ -198,7 +210,7 @@ void read_probes(const LayeredImage& image, ProbeVolume& volume) {
 void read_depths(const LayeredImage& image, int side, ProbeVolume& volume) {
   if (side < 1 || side > 64) fail(ExitCode::invalid_input, "maps of {} texels a side", side);
   const auto texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  const LayerReader values(image, "depth", 2, volume.probes.size() * texels);
+  const LayerReader values(image, "depth", 2, texels_of(volume) * texels);
   const auto width = static_cast<std::size_t>(size_of(volume).width);
   volume.depths = {side, std::vector<float>(volume.probes.size() * texels), {}};
   volume.depths.square = volume.depths.mean;
@@ -224,14 +236,31 @@ auto about_file(const fs::path& file, const Work& work) {
   }
 }
 
+/// Probes are counted by then.
+void read_tree(const json& entry, const fs::path& folder, ProbeVolume& volume) {
+  const auto cells = entry.at("cells").get<std::int64_t>();
+  if (!volume.grid || cells < 1 || cells > most_tree_cells)
+    fail(ExitCode::invalid_input, "'{}' has a tree of {} cells{}", volume.name, cells,
+         volume.grid ? "" : " and no grid");
+  const fs::path file = file_at(entry, folder);
+  about_file(file, [&] {
+    volume.tree = tree_of(read_image(file), std::size_t(cells));
+    check_tree(*volume.grid, *volume.tree, volume.probes.size());
+  });
+}
+
 ProbeVolume volume_of(const json& entry, const fs::path& folder) {
   ProbeVolume volume;
   volume.name = entry.at("name").get<std::string>();
   if (entry.contains("grid")) volume.grid = grid_of(entry.at("grid"));
   const auto count = entry.at("probes").get<std::int64_t>();
-  if (count < 1 || count > most_probes || (volume.grid && volume.grid->size() != std::size_t(count)))
+  const bool has_tree = entry.contains("tree");
+  const std::size_t of_grid = volume.grid ? volume.grid->size() : 1;
+  if (count < 1 || count > most_probes || std::size_t(count) < of_grid ||
+      (volume.grid && !has_tree && std::size_t(count) > of_grid))
     fail(ExitCode::invalid_input, "'{}' has {} probes, which does not fit its grid", volume.name, count);
   volume.probes.resize(std::size_t(count));
+  if (has_tree) read_tree(entry.at("tree"), folder, volume);
   const fs::path file = file_at(entry, folder);
   about_file(file, [&] { read_probes(read_image(file), volume); });
   if (entry.contains("depth")) {
@@ -250,6 +279,7 @@ void write_volumes(const fs::path& folder, const std::vector<ProbeVolume>& volum
   for (const ProbeVolume& volume : volumes) {
     const std::string stem = stems.take(volume.name);
     write_exr(folder / (stem + ".exr"), picture_of(volume), Depth::full);
+    if (volume.tree) write_exr(folder / (stem + "_tree.exr"), tree_picture(*volume.tree), Depth::full);
     if (volume.depths.side > 0) write_exr(folder / (stem + "_depth.exr"), depth_picture(volume), Depth::full);
     entries.push_back(json_of(volume, stem));
   }

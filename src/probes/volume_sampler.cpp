@@ -59,6 +59,14 @@ float visible_share(float distance, float mean, float square) {
   return bound * bound * bound;
 }
 
+/// Throws Error(unsupported) where it is none.
+const ProbeVolume& box_of(const ProbeVolume& volume) {
+  if (!volume.grid)
+    fail(ExitCode::unsupported, "'{}' is a list of points; only boxes of probes are interpolated",
+         volume.name);
+  return volume;
+}
+
 }  // namespace
 
 std::optional<ProbeEncoding> probe_encoding_of(std::string_view name) {
@@ -102,10 +110,11 @@ Vec3 decoded_probe(std::span<const Vec3> coefficients, ProbeEncoding encoding, c
 }
 
 VolumeSampler::VolumeSampler(const ProbeVolume& volume, ProbeEncoding encoding, LeakTest test)
-    : volume_(volume), encoding_(encoding), test_(test), coefficients_(coefficients_of(encoding)), bias_(0) {
-  if (!volume.grid)
-    fail(ExitCode::unsupported, "'{}' is a list of points; only boxes of probes are interpolated",
-         volume.name);
+    : volume_(box_of(volume)),
+      encoding_(encoding),
+      test_(test),
+      coefficients_(coefficients_of(encoding)),
+      cells_(volume) {
   if (test == LeakTest::visibility && volume.depths.side == 0) {
     fail(ExitCode::unsupported, "'{}' holds no distances to test visibility by; bake it with --depth",
          volume.name);
@@ -115,41 +124,17 @@ VolumeSampler::VolumeSampler(const ProbeVolume& volume, ProbeEncoding encoding, 
     values_.insert(values_.end(), coefficients.begin(), coefficients.end());
   }
   // A place on a surface lies behind the slant of a map's texels; off it, by a share of a cell, it does not.
+  // The cell is the probe's smallest: were it the place's, light would jump where large cells meet small
+  // ones.
   constexpr double share = 0.1;
-  const auto& steps = volume.grid->steps;
-  bias_ = share * std::min({steps[0].length(), steps[1].length(), steps[2].length()});
-}
-
-std::array<VolumeSampler::Corner, 8> VolumeSampler::corners(const Vec3d& place) const {
-  const ProbeGrid& grid = *volume_.grid;
-  const Vec3d at = grid.coordinates(place);
-  std::array<int, 3> low{}, high{};
-  std::array<float, 3> share{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double last = grid.counts[axis] - 1, x = std::clamp(at[int(axis)], 0.0, last);
-    low[axis] = static_cast<int>(x);
-    high[axis] = std::min(low[axis] + 1, grid.counts[axis] - 1);
-    share[axis] = static_cast<float>(x - low[axis]);
-  }
-  std::array<Corner, 8> found;
-  for (std::size_t k = 0; k < 8; ++k) {
-    std::array<int, 3> cell{};
-    float weight = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool is_high = (k >> axis & 1) != 0;
-      cell[axis] = is_high ? high[axis] : low[axis];
-      weight *= is_high ? share[axis] : 1 - share[axis];
-    }
-    found[k] = {grid.index(cell[0], cell[1], cell[2]), weight};
-  }
-  return found;
+  for (std::size_t i = 0; i < volume.probes.size(); ++i) biases_.push_back(share * cells_.least_step(i));
 }
 
 float VolumeSampler::leak_weight(std::size_t probe, const Vec3d& place, const Vec3& normal) const {
   if (test_ == LeakTest::none) return 1;
   if (!is_valid(volume_.probes[probe])) return 0;
   if (test_ == LeakTest::validity) return 1;
-  const Vec3 from = Vec3(place + Vec3d(normal) * bias_ - volume_.probes[probe].position);
+  const Vec3 from = Vec3(place + Vec3d(normal) * biases_[probe] - volume_.probes[probe].position);
   const float distance = from.length();
   if (!(distance > 0)) return 1;
   const Vec3 direction = from / distance;
@@ -163,24 +148,27 @@ float VolumeSampler::leak_weight(std::size_t probe, const Vec3d& place, const Ve
   return visible_share(distance, depths.mean[i], depths.square[i]);
 }
 
-Vec3 VolumeSampler::irradiance(const Vec3d& place, const Vec3& normal) const {
-  std::array<Corner, 8> around = corners(place);
-  const std::array<Corner, 8> trilinear = around;
+ProbeShares VolumeSampler::shares(const Vec3d& place, const Vec3& normal) const {
+  const ProbeShares trilinear = cells_.around(place);
+  ProbeShares seen = trilinear;
   float sum = 0;
-  for (Corner& corner : around) {
-    if (corner.weight > 0) corner.weight *= leak_weight(corner.probe, place, normal);
-    sum += corner.weight;
+  for (ProbeShare& share : seen.used()) {
+    share.weight *= leak_weight(share.probe, place, normal);
+    sum += share.weight;
   }
   constexpr float least = 1e-5F;  // below, none of the probes knows anything of the place
-  if (!(sum > least)) {
-    around = trilinear;
-    sum = 1;
-  }
+  if (!(sum > least)) return trilinear;
+  for (ProbeShare& share : seen.used()) share.weight /= sum;
+  return seen;
+}
+
+Vec3 VolumeSampler::irradiance(const Vec3d& place, const Vec3& normal) const {
   std::array<Vec3, 9> blended;
   blended.fill(Vec3(0));
-  for (const Corner& corner : around) {
+  const ProbeShares around = shares(place, normal);
+  for (const ProbeShare& share : around.used()) {
     for (std::size_t c = 0; c < coefficients_; ++c)
-      blended[c] += values_[corner.probe * coefficients_ + c] * (corner.weight / sum);
+      blended[c] += values_[share.probe * coefficients_ + c] * share.weight;
   }
   return decoded_probe(std::span(blended).first(coefficients_), encoding_, normal);
 }

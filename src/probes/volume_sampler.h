@@ -1,6 +1,7 @@
 // probes/volume_sampler.h - light at any place of a volume, for a surface of any normal.
 #pragma once
 
+#include "probes/cell_lookup.h"
 #include "probes/probe_volume.h"
 
 #include <array>
@@ -25,7 +26,7 @@ inline constexpr std::array<std::string_view, 5> probe_encoding_names{"cube", "c
                                                                       "sh3"};
 [[nodiscard]] std::optional<ProbeEncoding> probe_encoding_of(std::string_view name);
 
-/// Which of the eight probes around a place may light it.
+/// Which of the probes around a place may light it.
 enum class LeakTest {
   none,        // all, by their distance
   validity,    // those that stand in the open
@@ -40,7 +41,7 @@ inline constexpr std::array<std::string_view, 3> leak_test_names{"none", "validi
 [[nodiscard]] Vec3 decoded_probe(std::span<const Vec3> coefficients, ProbeEncoding encoding,
                                  const Vec3& normal);
 
-/// Interpolates a grid; thread-safe. The volume must outlive it.
+/// Interpolates a grid, or its tree (probes/cell_lookup.h); thread-safe. The volume must outlive it.
 class VolumeSampler {
  public:
   /// Throws Error(unsupported) for points without a grid, and for visibility where there are no distances.
@@ -50,21 +51,19 @@ class VolumeSampler {
   /// lit as the nearest on its border.
   [[nodiscard]] Vec3 irradiance(const Vec3d& place, const Vec3& normal) const;
 
+  /// Probes that light such a surface; their weights sum to 1.
+  [[nodiscard]] ProbeShares shares(const Vec3d& place, const Vec3& normal) const;
+
  private:
-  struct Corner {
-    std::size_t probe = 0;
-    float weight = 0;
-  };
-  /// The eight probes around a place, trilinear; weights sum to 1.
-  [[nodiscard]] std::array<Corner, 8> corners(const Vec3d& place) const;
   [[nodiscard]] float leak_weight(std::size_t probe, const Vec3d& place, const Vec3& normal) const;
 
   const ProbeVolume& volume_;
   ProbeEncoding encoding_;
   LeakTest test_;
   std::size_t coefficients_;
-  std::vector<Vec3> values_;  // [probes][coefficients]
-  double bias_;               // of places along their normal, where visibility is tested
+  CellLookup cells_;
+  std::vector<Vec3> values_;    // [probes][coefficients]
+  std::vector<double> biases_;  // [probes]; of places along their normal, where visibility is tested
 };
 
 }  // namespace rnmbake

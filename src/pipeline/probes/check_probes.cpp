@@ -41,7 +41,7 @@ std::vector<Place> random_places(const TraceScene& scene, const std::vector<Prob
   for (std::size_t v = 0; v < volumes.size(); ++v) {
     if (!volumes[v].grid) continue;
     const ProbeGrid& grid = *volumes[v].grid;
-    const auto share = std::max<std::size_t>(1, std::size_t(double(count * grid.size()) / all));
+    const auto share = std::max<std::size_t>(1, std::size_t(double(count * volumes[v].probes.size()) / all));
     for (std::size_t i = 0; i < share; ++i) {
       Sampler sampler(hash_of(seed, v), static_cast<std::uint32_t>(i));
       const Vec3 u = sampler.next3();

@@ -41,6 +41,11 @@ const ProbeFormat& probe_format_named(const std::string& name) {
 std::vector<std::filesystem::path> write_probe_format(const std::string& name,
                                                       std::span<const ProbeVolume> volumes,
                                                       const std::filesystem::path& folder) {
+  for (const ProbeVolume& volume : volumes) {
+    if (volume.tree)
+      fail(ExitCode::unsupported, "'{}' is a tree of probes, and {} takes regular boxes: leave --error out",
+           volume.name, name);
+  }
   const std::vector<FormatFile> files = probe_format_named(name).make(volumes);
   make_folders(folder);
   std::vector<std::filesystem::path> paths;
