@@ -24,6 +24,7 @@ def main(task):
     warnings = open_to_measure(task)
     warnings = scene_warnings() + warnings
     notes.remember_camera(bpy.context.scene)
+    notes.remember_probe_places(bpy.context.scene)
     warnings += displacement.settle()
     task.progress("evaluate")
     shown = collect.Scene()

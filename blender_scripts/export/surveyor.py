@@ -5,7 +5,7 @@ import bpy
 
 from export.looks import Looks, outside_of
 from export.world import describe as describe_world
-from lambert.notes import OUTSIDE, remembered_camera
+from lambert.notes import OUTSIDE, remembered_camera, remembered_probe_places
 from survey.surveyor import Surveyor
 
 
@@ -62,6 +62,7 @@ class ExportSurveyor(Surveyor):
             pictures.append(picture)
         self.tell("world", (), what)
         self.outside += json.loads(scene.get(OUTSIDE, "[]"))
+        self.probe_places = remembered_probe_places(scene)
         camera, note = remembered_camera(scene)
         self.warnings += [note] if note else []
         self.exchange = {

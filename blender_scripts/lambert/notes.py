@@ -8,12 +8,13 @@ import math
 
 import bpy
 
-from scene_ops.describe import bends_normals, describe_material
+from scene_ops.describe import bends_normals, describe_material, describe_probe_place
 from scene_ops.describe_nodes import active_output, constant, reachable_nodes
 from scene_ops.keys import CAMERA_PROPERTY
 
 OUTSIDE, NORMAL_IMAGE, NORMAL_UV, NORMAL_STRENGTH = (
     "rnmbake outside", "rnmbake normal map", "rnmbake normal uv", "rnmbake normal strength")
+PROBE_PLACES = "rnmbake probe places"
 RENDER_LAYER = ""  # of NormalMap::uv_layer in scene/diffuse_scene.h
 
 
@@ -98,6 +99,18 @@ def remembered_camera(scene):
     """(Camera of scene/diffuse_scene.h, None for a scene without a plain one; what to say of the choice, or "")."""
     known = json.loads(scene.get(CAMERA_PROPERTY, '{"camera": null, "note": ""}'))
     return known["camera"], known["note"]
+
+
+def remember_probe_places(scene):
+    """Note empties and volumes of light probes, which are no part of the lambert scene."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    shown = (ob.evaluated_get(depsgraph) for ob in bpy.context.view_layer.objects if not ob.hide_render)
+    places = (describe_probe_place(ob, ob.matrix_world) for ob in shown)
+    scene[PROBE_PLACES] = json.dumps([place for place in places if place])
+
+
+def remembered_probe_places(scene):
+    return json.loads(scene.get(PROBE_PLACES, "[]"))
 
 
 def is_plain_camera(ob):
