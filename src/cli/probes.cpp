@@ -61,8 +61,7 @@ struct ProbesFlags {
     ProbesOptions made = options;
     if (spacing > 0) made.places.spacing = spacing;
     if (bounds != "auto") made.places.bounds = parse_bounds(bounds);
-    made.lights =
-        static_cast<ProbeLights>(std::ranges::find(probe_lights_names, lights) - probe_lights_names.begin());
+    made.lights = *probe_lights_of(lights);
     made.source = by == "blender" ? ProbeSource::blender : ProbeSource::reference;
     made.settle.depth = !no_depth;
     return made;

@@ -1,7 +1,9 @@
 // probes/probe_lights.h - which part of a scene's light its probes hold.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace rnmbake {
@@ -16,5 +18,11 @@ enum class ProbeLights {
 
 /// As flags and files say it.
 inline constexpr std::array<std::string_view, 3> probe_lights_names{"all", "static", "indirect"};
+
+[[nodiscard]] inline std::optional<ProbeLights> probe_lights_of(std::string_view name) {
+  const auto found = std::ranges::find(probe_lights_names, name);
+  if (found == probe_lights_names.end()) return std::nullopt;
+  return static_cast<ProbeLights>(found - probe_lights_names.begin());
+}
 
 }  // namespace rnmbake

@@ -18,7 +18,7 @@ BlockGatherer::BlockGatherer(const TraceScene& scene, const PointSource& points,
       points_(points),
       options_(options),
       own_(own),
-      path_{options.bounces, 1, options.sample_lights, options.sample_bsdf, nullptr, nullptr, Vec3(0)},
+      path_{options.bounces, 1, options.sample_lights, options.sample_bsdf, {}, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
       framed_(coefficients_ > 0 || options.faults.any() || !few_directions()),
@@ -134,9 +134,7 @@ void BlockGatherer::sample_lamps(std::size_t i, std::size_t index, std::uint64_t
     it.sums = states_[i].sums;
     start_sample(slot, index, sampler);
     const LightSample light = scene_.lights().sample(it.origin, horizon(slot), sampler.next3());
-    if (!(light.pdf > 0)) continue;
-    const bool is_lamp = !light.bsdf_can_hit;
-    if (is_lamp ? !options_.direct.lamps : !options_.direct.glow) continue;
+    if (!(light.pdf > 0) || !options_.direct.takes(light)) continue;
     if (!(light.direction.dot(it.point.face) > grazing_sine)) {
       if (recipe_ && recipe_->faults().below_horizon) add_below(slot, light);
       continue;

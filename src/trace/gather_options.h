@@ -4,6 +4,7 @@
 #include "encoding/basis_set.h"
 #include "image/float_image.h"
 #include "scene/surface.h"
+#include "trace/lights/light_sample.h"
 
 #include <array>
 #include <cstdint>
@@ -31,12 +32,6 @@ struct RecipeFaults {
   [[nodiscard]] bool any() const {
     return tilt_clamp || bump_shadowing || self_reflection || below_horizon || no_diffuse;
   }
-};
-
-/// Light that arrives without having been reflected.
-struct DirectLight {
-  bool lamps = true;  // point, spot, area, sun
-  bool glow = true;   // emissive surfaces and the sky
 };
 
 struct GatherTarget {

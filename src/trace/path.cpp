@@ -39,6 +39,7 @@ Vec3 sampled_light(const TraceScene& scene, const Vertex& vertex, const Reflecto
   const bool above = vertex.face.dot(light.direction) > 0;
   const bool counts = above || (reflector.sees_below_face() && sampled_below(scene.lights(), light));
   if (!(light.pdf > 0) || !(cosine > 0) || !counts || bounces > light.max_bounces) return Vec3(0);
+  if (!options.sampled.takes(light)) return Vec3(0);
   ++rays;
   const Vec3 start = above ? vertex.start() : options.own->start_below(vertex, light.direction);
   const Visibility visibility =

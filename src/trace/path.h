@@ -4,6 +4,7 @@
 #include "base/math.h"
 #include "sampling/mis.h"
 #include "sampling/sampler.h"
+#include "trace/lights/light_sample.h"
 #include "trace/recipe.h"
 #include "trace/scene.h"
 
@@ -22,6 +23,7 @@ struct PathOptions {
   int bounces = -1;  // -1: no limit
   int before = 1;    // bounces of the path before the vertex
   bool sample_lights = true, sample_bsdf = true;
+  DirectLight sampled;  // by sampling lights, at each vertex
 
   /// For the recipe's self-reflection: the target, and the basis vector that replaces its normal. Null: none.
   const OwnSurface* own = nullptr;

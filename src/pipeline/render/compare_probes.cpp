@@ -15,7 +15,21 @@ namespace {
 
 constexpr std::array<std::size_t, 5> colours_of{6, 6, 4, 4, 9};  // of each ProbeEncoding
 
-/// 1 at the pixels whose middle shows an object that the probes light.
+/// 1 where a pixel and all its neighbours have it: a pixel on an object's edge shows what is behind, too.
+FloatImage without_edges(const FloatImage& mask) {
+  FloatImage inner(mask.width(), mask.height(), 1);
+  for (int y = 1; y + 1 < mask.height(); ++y) {
+    for (int x = 1; x + 1 < mask.width(); ++x) {
+      float least = 1;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) least = std::min(least, mask.texel(x + dx, y + dy)[0]);
+      inner.texel(x, y)[0] = least;
+    }
+  }
+  return inner;
+}
+
+/// 1 at the pixels that show nothing but objects that the probes light.
 FloatImage lit_pixels(const TraceScene& scene, const SceneProbes& probes, const ViewOptions& view) {
   const GBuffer buffer = trace_gbuffer(scene, camera_of(scene.diffuse_scene()), view,
                                        [](const Vertex& vertex) { return vertex.normal; });
@@ -23,7 +37,7 @@ FloatImage lit_pixels(const TraceScene& scene, const SceneProbes& probes, const 
   std::ranges::transform(buffer.object.data(), lit.data().begin(), [&](float number) {
     return number > 0 && probes.lights(static_cast<std::size_t>(number) - 1) ? 1.0F : 0.0F;
   });
-  return lit;
+  return without_edges(lit);
 }
 
 std::string label_of(const ProbeLookup& lookup) {
@@ -39,7 +53,9 @@ ViewComparison compare_probes_view(const TraceScene& scene, const SurfaceLights&
   truth.coverage = lit_pixels(scene, *lights.probes, options.view);
   if (std::ranges::none_of(truth.coverage.data(), [](float lit) { return lit > 0; }))
     fail(ExitCode::invalid_input,
-         "the camera sees nothing that the probes light; pass --camera fit, or --dynamic");
+         "the camera sees nothing that the probes light, or less than 3 x 3 pixels of it; move it, pass "
+         "--camera "
+         "fit or --dynamic, or raise --resolution");
   ViewComparison view;
   view.name = camera_of(scene.diffuse_scene()).name;
   view.pictures.push_back({"truth", truth.halves.mean()});

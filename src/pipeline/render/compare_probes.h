@@ -8,8 +8,8 @@
 namespace rnmbake {
 
 /// The truth, then each encoding of the probes with the best test against leaks that they allow, then the
-/// harmonics of order 3 with the others. Errors are over the pixels that show what the probes light. Throws
-/// as render_view(), and Error(invalid_input) where the view shows nothing of that.
+/// harmonics of order 3 with the others. Errors are over the pixels that show what the probes light, edges
+/// left out. Throws as render_view(), and Error(invalid_input) where the view shows nothing of that.
 [[nodiscard]] ViewComparison compare_probes_view(const TraceScene& scene, const SurfaceLights& lights,
                                                  const RenderOptions& options);
 

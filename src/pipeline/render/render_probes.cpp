@@ -31,6 +31,7 @@ SceneProbes::SceneProbes(const std::filesystem::path& path, const DiffuseScene& 
   if (volumes_.empty())
     fail(ExitCode::unsupported, "{} holds lists of points; only boxes of probes light what lies between",
          path.string());
+  held_ = probe_lights_of(stored.about.value("lights", "all")).value_or(ProbeLights::all);
   auto patterns = dynamic;
   if (patterns.empty()) patterns = stored.about.value("dynamic", std::vector<std::string>());
   lit_ = dynamic_objects(scene.survey, patterns);

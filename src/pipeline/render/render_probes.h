@@ -1,6 +1,7 @@
 // pipeline/render/render_probes.h - volumes of light probes from disk, and what in a scene they light.
 #pragma once
 
+#include "probes/probe_lights.h"
 #include "probes/volume_sampler.h"
 #include "scene/diffuse_scene.h"
 
@@ -26,12 +27,15 @@ class SceneProbes {
 
   [[nodiscard]] bool lights(std::size_t object) const { return lit_[object] != 0; }
   [[nodiscard]] const std::vector<ProbeVolume>& volumes() const { return volumes_; }
+  /// Light that they hold; what is missing are the engine's own lights.
+  [[nodiscard]] ProbeLights held() const { return held_; }
   /// Visibility where all volumes hold distances.
   [[nodiscard]] LeakTest best_test() const;
 
  private:
   std::vector<ProbeVolume> volumes_;  // boxes alone
   std::vector<char> lit_;             // [objects]
+  ProbeLights held_ = ProbeLights::all;
 };
 
 /// Light at any place, from the first box that it lies in, else the nearest box.

@@ -33,6 +33,11 @@ class Shader {
     if (lighting.kind == Lighting::Kind::probes) {
       if (lights.probes == nullptr) fail(ExitCode::usage, "{} needs light probes", name_of(lighting));
       probe_light_.emplace(*lights.probes, lighting.lookup);
+      const ProbeLights held = lights.probes->held();
+      own_lights_.sampled = {held != ProbeLights::all, held == ProbeLights::bounced};
+      own_lights_.bounces = 1;
+      own_lights_.before = 0;
+      own_lights_.sample_bsdf = false;
     }
     if (lighting.kind == Lighting::Kind::decoded && lights.lightmaps == nullptr)
       fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
@@ -42,7 +47,8 @@ class Shader {
   [[nodiscard]] Vec3 reflected(const Vertex& vertex, Sampler& sampler) const {
     if (lighting_.kind == Lighting::Kind::none) return albedo(vertex);
     if (lighting_.kind == Lighting::Kind::truth) return traced(vertex, sampler);
-    if (probe_light_ && lights_.probes->lights(surfaces_.object_of(vertex))) return by_probes(vertex);
+    if (probe_light_ && lights_.probes->lights(surfaces_.object_of(vertex)))
+      return by_probes(vertex, sampler);
     if (!takes_lightmaps()) return traced(vertex, sampler);
     const int number = lights_.lightmaps->find(surfaces_.object_of(vertex), surfaces_.source_of(vertex));
     return number < 0 ? traced(vertex, sampler) : decoded(vertex, static_cast<std::size_t>(number));
@@ -59,9 +65,14 @@ class Shader {
            (lighting_.kind == Kind::decoded || lighting_.kind == Kind::probes);
   }
 
-  [[nodiscard]] Vec3 by_probes(const Vertex& vertex) const {
-    const Vec3 normal = surfaces_.to_world(vertex, surfaces_.mapped_normal(vertex));
-    return albedo(vertex) * probe_light_->irradiance(Vec3d(vertex.position) + scene_.origin(), normal);
+  /// What the probes hold, and what an engine's own lights add to it.
+  [[nodiscard]] Vec3 by_probes(Vertex vertex, Sampler& sampler) const {
+    vertex.normal = surfaces_.to_world(vertex, surfaces_.mapped_normal(vertex));
+    const Vec3 light =
+        albedo(vertex) * probe_light_->irradiance(Vec3d(vertex.position) + scene_.origin(), vertex.normal);
+    if (!own_lights_.sampled.lamps) return light;
+    std::int64_t rays = 0;
+    return light + reflected_radiance(scene_, vertex, own_lights_, sampler, rays);
   }
 
   [[nodiscard]] Vec3 decoded(const Vertex& vertex, std::size_t number) const {
@@ -81,6 +92,7 @@ class Shader {
   Lighting lighting_;
   RenderSurfaces surfaces_;
   PathOptions path_;
+  PathOptions own_lights_;  // of an engine, beside what its probes hold
   std::vector<LightmapDecoder> decoders_;
   std::optional<ProbeLight> probe_light_;
 };

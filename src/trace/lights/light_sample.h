@@ -21,4 +21,12 @@ struct LightSample {
   int max_bounces = 1024;
 };
 
+/// Which light counts where it arrives without having been reflected.
+struct DirectLight {
+  bool lamps = true;  // point, spot, area, sun
+  bool glow = true;   // emissive surfaces and the sky
+
+  [[nodiscard]] bool takes(const LightSample& light) const { return light.bsdf_can_hit ? glow : lamps; }
+};
+
 }  // namespace rnmbake
