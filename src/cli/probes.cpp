@@ -106,9 +106,12 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
       .write(" ");  // never committed: finds out now that nothing can be written
   BlenderSession session(config, blender);
   ExportResult exported = export_scene(session);
+  options.lambert = config.globals.scene.materials == SceneSettings::Materials::lambert;
   options.settle.threads = config.globals.run.threads;
   const ReferencePlan plan = plan_reference(config, exported.diffuse_scene.survey.blender_version);
-  const ProbesResult result = run_probes(session, exported, plan, options);
+  take_out(options.dynamic, exported.diffuse_scene);
+  const TraceScene scene(exported.diffuse_scene, plan.blender_version);
+  const ProbesResult result = run_probes(session, exported, scene, plan, options);
   write_volumes(flags.output, result.volumes, result.about);
   for (const std::string& name : flags.to) {
     for (const auto& file : write_probe_format(name, result.volumes, flags.output / name))

@@ -46,6 +46,12 @@ struct ValidateFlags {
         ->check(CLI::Range(0, 4096).description(""))
         ->type_name("N");
     command
+        .add_option("--probes", probes,
+                    "light probes in a box around the scene, about so many, by Blender and by the reference: "
+                    "whether both agree; 0: none [0]")
+        ->check(CLI::Range(0, 1000000).description(""))
+        ->type_name("N");
+    command
         .add_option(
             "--fail-above", fail_above,
             "limits for each object and basis of the receiver's bake, such as rmse=2%,bias=0.5%: exit "
@@ -55,7 +61,7 @@ struct ValidateFlags {
   SettingsFlags settings;
   std::string study, fail_above;
   std::vector<std::string> decompose = ValidateOptions{}.decompose;
-  int view = ValidateOptions{}.view;
+  int view = ValidateOptions{}.view, probes = ValidateOptions{}.probes;
 };
 
 std::string command_of(const ResolvedConfig& config, const ValidateFlags& flags) {
@@ -64,6 +70,7 @@ std::string command_of(const ResolvedConfig& config, const ValidateFlags& flags)
   if (flags.decompose != ValidateOptions{}.decompose)
     line += " --decompose " + shell_word(fmt::format("{}", fmt::join(flags.decompose, ",")));
   if (flags.view != ValidateOptions{}.view) line += fmt::format(" --view {}", flags.view);
+  if (flags.probes > 0) line += fmt::format(" --probes {}", flags.probes);
   if (!flags.fail_above.empty()) line += " --fail-above " + shell_word(flags.fail_above);
   return line;
 }
@@ -94,7 +101,8 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
   prepare_output(config.globals.output);
-  Validation found = validate(session, bases, {flags.decompose, flags.study == "split", flags.view});
+  Validation found =
+      validate(session, bases, {flags.decompose, flags.study == "split", flags.view, flags.probes});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
   std::cout << printable(found.receiver.finding) << '\n';
   log::info("report: {}", (config.globals.output.dir / "report.html").string());

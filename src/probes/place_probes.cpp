@@ -45,8 +45,7 @@ ProbeBounds parse_bounds(const std::string& text) {
   return bounds;
 }
 
-ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing) {
-  constexpr double usual_probes = 1000;
+ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing, double wanted) {
   const Vec3d size = bounds.high - bounds.low;
   const double longest = std::max({size.x, size.y, size.z});
   const double area = size.x * size.y + size.y * size.z + size.z * size.x;
@@ -57,7 +56,7 @@ ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing) {
   }
   Vec3d filled = size;  // a flat box gets a layer of probes
   for (int axis = 0; axis < 3; ++axis) filled[axis] = std::max(size[axis], 1e-3 * longest);
-  const double step = spacing.value_or(std::cbrt(filled.x * filled.y * filled.z / usual_probes));
+  const double step = spacing.value_or(std::cbrt(filled.x * filled.y * filled.z / wanted));
   ProbeGrid grid;
   double probes = 1;
   for (int axis = 0; axis < 3; ++axis) {

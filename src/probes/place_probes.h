@@ -21,7 +21,8 @@ struct ProbeBounds {
 /// Probes in the middles of equal cells that fill the box, about `spacing` apart along each axis: at least
 /// one along each. Without a spacing about a thousand probes. Throws Error(invalid_input) where there would
 /// be more than most_probes, or the box is flat in two directions.
-[[nodiscard]] ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing);
+[[nodiscard]] ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing,
+                                double probes = 1000);
 
 /// The cells' middles of the cube [-1, 1]^3 as `to_world` places it: Blender's light probe volumes.
 [[nodiscard]] ProbeGrid grid_in_cube(const Mat44& to_world, const std::array<int, 3>& counts);

@@ -212,6 +212,14 @@ ProbeAgreement check_at_probes(const TraceScene& scene, const std::vector<ProbeV
   return agreement;
 }
 
+std::string agreement_text(const ProbeAgreement& it, double mean) {
+  constexpr double beyond_doubt = 4;  // standard errors: once in 16,000 by chance
+  const bool is_biased = std::abs(it.bias) > beyond_doubt * it.noise;
+  return fmt::format("Blender against the reference at {}: {} ({} +- {} %), RMSE with noise {} %",
+                     counted(it.probes, "probe"), is_biased ? "biased" : "no bias beyond the noise",
+                     share_of(it.bias, mean), share_of(it.noise, mean), share_of(it.rmse, mean));
+}
+
 std::string check_text(const ProbeCheck& check) {
   std::ostringstream out;
   if (!check.rows.empty()) {
@@ -226,11 +234,7 @@ std::string check_text(const ProbeCheck& check) {
                        counted(check.places, "random place"), check.mean);
     table.write(out);
   }
-  if (check.agreement) {
-    const ProbeAgreement& it = *check.agreement;
-    out << fmt::format("Blender against the reference at {}: bias {:+.2g} +- {:.2g}, RMSE {:.2g} (E/pi)\n",
-                       counted(it.probes, "probe"), it.bias, it.noise, it.rmse);
-  }
+  if (check.agreement) out << agreement_text(*check.agreement, check.mean) << '\n';
   return out.str();
 }
 

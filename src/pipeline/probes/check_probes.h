@@ -48,6 +48,9 @@ struct ProbeCheck {
 [[nodiscard]] ProbeAgreement check_at_probes(const TraceScene& scene, const std::vector<ProbeVolume>& volumes,
                                              const ProbeGatherOptions& options, std::size_t most);
 
+/// "Blender against the reference at 200 probes: no bias beyond the noise ...".
+[[nodiscard]] std::string agreement_text(const ProbeAgreement& agreement, double mean);
+
 /// A table with a line for each row, and the sentence on agreement.
 [[nodiscard]] std::string check_text(const ProbeCheck& check);
 [[nodiscard]] nlohmann::json check_json(const ProbeCheck& check);

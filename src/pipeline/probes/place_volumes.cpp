@@ -82,7 +82,7 @@ std::vector<ProbeVolume> place_volumes(const SceneSurvey& survey, const PlaceWis
     if (!own.empty()) return volumes_of(own);
   }
   const ProbeBounds bounds = wishes.bounds ? *wishes.bounds : bounds_of(survey, dynamic);
-  return {empty_volume("volume", grid_in(bounds, wishes.spacing))};
+  return {empty_volume("volume", grid_in(bounds, wishes.spacing, wishes.probes))};
 }
 
 std::vector<char> dynamic_objects(const SceneSurvey& survey, const std::vector<std::string>& patterns) {

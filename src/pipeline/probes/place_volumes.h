@@ -13,6 +13,7 @@ namespace rnmbake {
 
 struct PlaceWishes {
   std::optional<double> spacing;      // of a box, units
+  double probes = 1000;               // of a box without a spacing, about
   std::optional<ProbeBounds> bounds;  // of a box; none: around the scene
   std::vector<std::string> at;        // patterns for names of empties and of Blender's light probe volumes
   std::filesystem::path points;       // a list; "": none

@@ -23,13 +23,6 @@ DirectLight direct_light(ProbeLights lights) {
   return {lights == ProbeLights::all, lights != ProbeLights::bounced};
 }
 
-/// Takes moving objects out of the scene, for light and for rays.
-void take_out(const std::vector<char>& dynamic, DiffuseScene& scene) {
-  scene.unlit.resize(scene.survey.objects.size(), 0);
-  for (std::size_t i = 0; i < dynamic.size(); ++i)
-    if (dynamic[i] != 0) scene.unlit[i] = 1;
-}
-
 /// Probes that need light of their own: those that no neighbour can stand in for, too.
 std::vector<LightProbe*> probes_to_light(std::vector<ProbeVolume>& volumes) {
   std::vector<LightProbe*> wanted;
@@ -77,15 +70,14 @@ std::vector<std::string> keys_of(const SceneSurvey& survey, const std::vector<ch
 }
 
 /// A probe that Blender failed at counts as one that stands in a wall: its neighbours stand in for it.
-void light_by_blender(BlenderSession& session, const ExportResult& exported, ProbeLights lights,
+void light_by_blender(BlenderSession& session, const ExportResult& exported, const ProbesOptions& options,
                       const std::vector<char>& dynamic, std::span<LightProbe* const> probes) {
-  const bool lambert = session.settings().scene.materials == SceneSettings::Materials::lambert;
   std::vector<Vec3d> positions;
   for (const LightProbe* probe : probes) positions.push_back(probe->position);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
   const BakedProbes baked =
-      bake_probes(session, survey, lambert ? exported.blends->shown : exported.blends->own,
-                  {positions, probe_directions(), lights, keys_of(survey, dynamic)});
+      bake_probes(session, survey, options.lambert ? exported.blends->shown : exported.blends->own,
+                  {positions, probe_directions(), options.lights, keys_of(survey, dynamic)});
   for (std::size_t i = 0; i < probes.size(); ++i) {
     if (!baked.baked[i]) probes[i]->validity = 0;
     std::copy_n(baked.irradiance.begin() + std::ptrdiff_t(i * probe_direction_count), probe_direction_count,
@@ -120,16 +112,21 @@ void settle(const TraceScene& scene, const SettleOptions& options, std::vector<P
 
 }  // namespace
 
-ProbesResult run_probes(BlenderSession& session, ExportResult& exported, const ReferencePlan& plan,
-                        const ProbesOptions& options) {
-  DiffuseScene& diffuse = exported.diffuse_scene;
+void take_out(const std::vector<std::string>& dynamic, DiffuseScene& scene) {
+  const std::vector<char> moves = dynamic_objects(scene.survey, dynamic);
+  scene.unlit.resize(moves.size(), 0);
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (moves[i] != 0) scene.unlit[i] = 1;
+}
+
+ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, const TraceScene& scene,
+                        const ReferencePlan& plan, const ProbesOptions& options) {
+  const DiffuseScene& diffuse = exported.diffuse_scene;
   const std::vector<char> dynamic = dynamic_objects(diffuse.survey, options.dynamic);
   ProbesResult result;
   result.volumes = place_volumes(diffuse.survey, options.places, dynamic);
-  take_out(dynamic, diffuse);
   if (options.source == ProbeSource::blender && !exported.blends)
     fail(ExitCode::usage, "--by blender needs the .blend; a .rnmscene holds what the tracer needs alone");
-  const TraceScene scene(diffuse, plan.blender_version);
   settle(scene, options.settle, result.volumes);
   const std::vector<LightProbe*> probes = probes_to_light(result.volumes);
   log::info("lighting {} in {}", counted(probes.size(), "probe"), counted(result.volumes.size(), "volume"));
@@ -137,7 +134,7 @@ ProbesResult run_probes(BlenderSession& session, ExportResult& exported, const R
   const ProbeGatherOptions gathering = gather_options(settings, plan, options.lights);
   const bool by_blender = options.source == ProbeSource::blender;
   if (by_blender) {
-    light_by_blender(session, exported, options.lights, dynamic, probes);
+    light_by_blender(session, exported, options, dynamic, probes);
   } else {
     light_by_reference(scene, gathering, probes);
   }

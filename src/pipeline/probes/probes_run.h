@@ -24,6 +24,7 @@ struct ProbesOptions {
   std::vector<std::string> dynamic;  // patterns of objects that move: no part of the light
   ProbeLights lights = ProbeLights::all;
   ProbeSource source = ProbeSource::reference;
+  bool lambert = false;  // Blender shows the materials that the reference traces, not the scene's own
   SettleOptions settle;
   std::size_t check = 200;  // places between the probes at which the truth is traced; 0: none
 };
@@ -34,9 +35,13 @@ struct ProbesResult {
   ProbeCheck check;
 };
 
-/// Throws as place_volumes(), Error(invalid_input) where every probe stands inside of something, and
-/// Interrupted. `exported`: the scene; its dynamic objects are taken out of it for good.
-[[nodiscard]] ProbesResult run_probes(BlenderSession& session, ExportResult& exported,
-                                      const ReferencePlan& plan, const ProbesOptions& options);
+/// Takes moving objects out of a scene that is to be traced. Throws as dynamic_objects().
+void take_out(const std::vector<std::string>& dynamic, DiffuseScene& scene);
+
+/// `scene`: of `exported`, without what moves. Throws as place_volumes(), Error(invalid_input) where every
+/// probe stands inside of something, and Interrupted.
+[[nodiscard]] ProbesResult run_probes(BlenderSession& session, const ExportResult& exported,
+                                      const TraceScene& scene, const ReferencePlan& plan,
+                                      const ProbesOptions& options);
 
 }  // namespace rnmbake

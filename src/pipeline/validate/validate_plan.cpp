@@ -64,6 +64,7 @@ ValidatePlan::ValidatePlan(BlenderSession& used, const std::vector<BasisDirectio
                            const ValidateOptions& options)
     : session(used),
       view(options.view),
+      probes(options.probes),
       exported(exported_for(used, options.view > 0)),
       truth(without_limit(plan_reference(used.config(), exported.diffuse_scene.survey.blender_version))),
       scene(exported.diffuse_scene, truth.blender_version),

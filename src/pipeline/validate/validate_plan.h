@@ -25,7 +25,8 @@ struct ValidatePlan {
   [[nodiscard]] bool decomposes() const { return !decomposed.targets.empty(); }
 
   BlenderSession& session;
-  int view;  // pixels along the longer side; 0: none
+  int view;    // pixels along the longer side; 0: none
+  int probes;  // light probes around the scene, about; 0: none
   ExportResult exported;
   ReferencePlan truth;  // the reference without a limit of bounces, whatever that of the bakes
   TraceScene scene;

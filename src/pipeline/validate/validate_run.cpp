@@ -1,16 +1,20 @@
 #include "pipeline/validate/validate_run.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/steps.h"
 #include "base/text.h"
 #include "config/recipe_names.h"
 #include "pipeline/compare/compare.h"
+#include "pipeline/probes/probes_run.h"
 #include "pipeline/render/render_compare.h"
 #include "pipeline/validate/decompose.h"
 #include "pipeline/validate/validate_finding.h"
 #include "pipeline/validate/validate_plan.h"
 #include "pipeline/validate/validate_scope.h"
+#include "probes/volume_file.h"
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -42,6 +46,7 @@ struct Findings {
   bool complete = true;  // no object failed
   SplitStudy study;
   std::optional<ViewComparison> view;
+  std::optional<ProbeCheck> probes;
 };
 
 void bake(const ValidatePlan& plan, const BakeVariant& variant, int half, Findings& found) {
@@ -90,6 +95,20 @@ ViewComparison view_of(const ValidatePlan& plan) {
   return compare_view(plan.session, plan.exported, plan.scene, lightmaps, options);
 }
 
+/// Light probes by Blender, as `rnmbake probes --by blender` makes them, held against the reference.
+ProbeCheck probes_of(const ValidatePlan& plan) {
+  ProbesOptions options;
+  options.places.probes = plan.probes;
+  options.source = ProbeSource::blender;
+  options.lambert = true;
+  options.check = std::size_t(plan.probes);
+  const ProbesResult result = run_probes(plan.session, plan.exported, plan.scene, plan.truth, options);
+  const std::filesystem::path folder = plan.session.settings().output.dir / "probes";
+  make_folders(folder);
+  write_volumes(folder, result.volumes, result.about);
+  return result.check;
+}
+
 std::vector<Step> steps_of(const ValidatePlan& plan, Findings& found) {
   std::vector<Step> steps;
   for (const BakeVariant& variant : bake_variants(plan))
@@ -106,6 +125,8 @@ std::vector<Step> steps_of(const ValidatePlan& plan, Findings& found) {
   }
   for (const Splitting& splitting : plan.study) steps.push_back(study_step(plan, splitting, found));
   if (plan.view > 0) steps.push_back({"the camera's view", view_weight, [&] { found.view = view_of(plan); }});
+  if (plan.probes > 0)
+    steps.push_back({"light probes", receiver_weight, [&] { found.probes = probes_of(plan); }});
   return steps;
 }
 
@@ -180,6 +201,10 @@ Validation judged(const ValidatePlan& plan, const Findings& found) {
   }
   receiver.finding += ".";
   add_notes(plan, receiver);
+  if (found.probes && found.probes->agreement) {
+    receiver.notes.push_back("Light probes: " + agreement_text(*found.probes->agreement, found.probes->mean) +
+                             ".");
+  }
   if (found.view) {
     receiver.notes.push_back(finding_of(*found.view));
     receiver.views.push_back(*found.view);
