@@ -47,9 +47,9 @@ class OpenScene {
         blender_(config.globals),
         session_(config_, blender_),
         exported_(opened()),
+        probes_(opened_probes()),
         plan_(plan_reference(config_, exported_.diffuse_scene.survey.blender_version)),
         scene_(exported_.diffuse_scene, plan_.blender_version) {
-    if (!flags.probes.empty()) probes_.emplace(flags.probes, exported_.diffuse_scene, flags.dynamic);
     if (!flags.lightmaps.empty()) lightmaps_.emplace(flags.lightmaps.front(), exported_.diffuse_scene);
     if (lightmaps_ && !lightmaps_->bare().empty())
       log::warn("no lightmap, so traced: {}", fmt::join(lightmaps_->bare(), ", "));
@@ -93,6 +93,14 @@ class OpenScene {
     ExportResult exported = export_scene(session_);
     give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
+  }
+
+  /// Before the scene is traced, to which spheres are added.
+  [[nodiscard]] std::optional<SceneProbes> opened_probes() {
+    if (flags_.probes.empty()) return std::nullopt;
+    SceneProbes probes(flags_.probes, exported_.diffuse_scene, flags_.dynamic);
+    if (flags_.spheres) probes.show_spheres(exported_.diffuse_scene);
+    return probes;
   }
 
   [[nodiscard]] const SceneLightmaps* lightmaps() const { return lightmaps_ ? &*lightmaps_ : nullptr; }
@@ -148,10 +156,10 @@ class OpenScene {
   LateBlender blender_;
   BlenderSession session_;
   ExportResult exported_;
+  std::optional<SceneProbes> probes_;
   ReferencePlan plan_;
   TraceScene scene_;
   std::optional<SceneLightmaps> lightmaps_;
-  std::optional<SceneProbes> probes_;
 };
 
 void write_comparison(Report report, const ResolvedConfig& config, const RenderFlags& flags) {

@@ -92,6 +92,9 @@ RenderFlags::RenderFlags(CLI::App& command) : settings(command, Purpose::referen
                   "[lambert]")
       ->check(CLI::IsMember({"lambert", "full"}).description(""))
       ->type_name("lambert|full");
+  command.add_flag("--spheres", spheres,
+                   "show the probes as spheres lit by what they hold, and everything by them: white in the "
+                   "open, green where moved out of geometry, red where filled from neighbours");
   command.add_flag("--gbuffer", gbuffer,
                    "what a deferred renderer keeps instead of a picture: normals of the normal maps and of "
                    "the faces, positions, depths and objects, as layers of an .exr");
@@ -146,6 +149,9 @@ void RenderFlags::check() {
   if (probes.empty() && (decode == "probes" || !dynamic.empty() || !leak_test.empty()))
     fail(ExitCode::usage,
          "--decode probes, --dynamic and --leak-test are for light probes; pass --probes DIR");
+  if (spheres && (probes.empty() || ways > 0))
+    fail(ExitCode::usage,
+         "--spheres is a picture of --probes DIR by itself; leave --compare and --decode out");
   if (ways == 0 && !probes.empty()) decode = "probes";
   if (!probes.empty() && decode != "probes" && !compare)
     fail(ExitCode::usage,
@@ -178,6 +184,7 @@ std::string RenderFlags::as_text() const {
   for (const std::string& pattern : dynamic) add("--dynamic", pattern);
   if (probes_as != "sh3") add("--probes-as", probes_as);
   add("--leak-test", leak_test);
+  if (spheres) text += " --spheres";
   add("--decode", decode);
   add("--with", with);
   if (gbuffer) text += " --gbuffer";

@@ -37,7 +37,7 @@ class RenderFlags {
   std::string decode, with, materials = "lambert", resolution, camera;
   int samples = 0;  // 0: not said
   float exposure = 0;
-  bool compare = false, gbuffer = false;
+  bool compare = false, gbuffer = false, spheres = false;
 };
 
 [[nodiscard]] bool is_png(const std::filesystem::path& file);

@@ -48,6 +48,37 @@ Vec3 zh3_of(std::span<const Vec3> harmonics, const Vec3& normal) {
   return light;
 }
 
+struct MeanDistance {
+  float mean = 0, square = 0;
+};
+
+/// Bilinear between the texels of a probe's map. Beyond its border the map goes on mirrored: there two edges
+/// of the unfolded sphere meet.
+MeanDistance distances_at(const ProbeDepths& depths, std::size_t probe, const Vec3& direction) {
+  const int side = depths.side;
+  const Vec2 at = (octahedral(direction) + Vec2(1)) * (0.5F * float(side)) - Vec2(0.5F);
+  const int left = static_cast<int>(std::floor(at.x)), top = static_cast<int>(std::floor(at.y));
+  MeanDistance found;
+  for (const int dy : {0, 1}) {
+    for (const int dx : {0, 1}) {
+      int x = left + dx, y = top + dy;
+      const float weight = (1 - std::abs(at.x - float(x))) * (1 - std::abs(at.y - float(y)));
+      if (x < 0 || x >= side) {
+        x = std::clamp(x, 0, side - 1);
+        y = side - 1 - y;
+      }
+      if (y < 0 || y >= side) {
+        y = std::clamp(y, 0, side - 1);
+        x = side - 1 - x;
+      }
+      const std::size_t i = (probe * std::size_t(side) + std::size_t(y)) * std::size_t(side) + std::size_t(x);
+      found.mean += weight * depths.mean[i];
+      found.square += weight * depths.square[i];
+    }
+  }
+  return found;
+}
+
 /// Share of a probe in the light of a place at `distance`, where rays in that direction go `mean` far:
 /// Chebyshev's bound on the share of rays that go farther. Donnelly and Lauritzen, "Variance Shadow Maps"
 /// (I3D 2006); for probes Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
@@ -138,14 +169,8 @@ float VolumeSampler::leak_weight(std::size_t probe, const Vec3d& place, const Ve
   const float distance = from.length();
   if (!(distance > 0)) return 1;
   const Vec3 direction = from / distance;
-  const ProbeDepths& depths = volume_.depths;
-  const auto side = static_cast<std::size_t>(depths.side);
-  const Vec2 at = octahedral(direction);
-  const auto texel = [&](float x) {
-    return static_cast<std::size_t>(std::clamp(int((x + 1) / 2 * float(side)), 0, depths.side - 1));
-  };
-  const std::size_t i = (probe * side + texel(at.y)) * side + texel(at.x);
-  return visible_share(distance, depths.mean[i], depths.square[i]);
+  const auto [mean, square] = distances_at(volume_.depths, probe, direction);
+  return visible_share(distance, mean, square);
 }
 
 ProbeShares VolumeSampler::shares(const Vec3d& place, const Vec3& normal) const {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "pipeline/probes/place_volumes.h"
+#include "pipeline/render/probe_spheres.h"
 #include "probes/volume_file.h"
 
 #include <algorithm>
@@ -44,12 +45,27 @@ LeakTest SceneProbes::best_test() const {
   return have_distances ? LeakTest::visibility : LeakTest::validity;
 }
 
-ProbeLight::ProbeLight(const SceneProbes& probes, const ProbeLookup& lookup) : probes_(probes) {
-  for (const ProbeVolume& volume : probes.volumes())
-    samplers_.emplace_back(volume, lookup.encoding, lookup.test);
+void SceneProbes::show_spheres(DiffuseScene& scene) {
+  first_sphere_ = scene.survey.objects.size();
+  add_probe_spheres(volumes_, scene);
+  lit_.assign(scene.survey.objects.size(), 1);
 }
 
-Vec3 ProbeLight::irradiance(const Vec3d& place, const Vec3& normal) const {
+ProbeLight::ProbeLight(const SceneProbes& probes, const ProbeLookup& lookup)
+    : probes_(probes), encoding_(lookup.encoding) {
+  for (const ProbeVolume& volume : probes.volumes()) {
+    samplers_.emplace_back(volume, lookup.encoding, lookup.test);
+    for (const LightProbe& probe : volume.probes) spheres_.push_back(encoded_probe(probe, encoding_));
+  }
+}
+
+Vec3 ProbeLight::irradiance(std::size_t object, const Vec3d& place, const Vec3& normal) const {
+  const auto sphere = probes_.sphere_of(object);
+  const Vec3 light = sphere ? decoded_probe(spheres_[*sphere], encoding_, normal) : between(place, normal);
+  return {std::max(0.0F, light.x), std::max(0.0F, light.y), std::max(0.0F, light.z)};
+}
+
+Vec3 ProbeLight::between(const Vec3d& place, const Vec3& normal) const {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < samplers_.size() && least > 0; ++i) {
@@ -58,8 +74,7 @@ Vec3 ProbeLight::irradiance(const Vec3d& place, const Vec3& normal) const {
     least = distance;
     nearest = i;
   }
-  const Vec3 light = samplers_[nearest].irradiance(place, normal);
-  return {std::max(0.0F, light.x), std::max(0.0F, light.y), std::max(0.0F, light.z)};
+  return samplers_[nearest].irradiance(place, normal);
 }
 
 }  // namespace rnmbake

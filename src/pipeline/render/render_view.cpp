@@ -69,7 +69,8 @@ class Shader {
   [[nodiscard]] Vec3 by_probes(Vertex vertex, Sampler& sampler) const {
     vertex.normal = surfaces_.to_world(vertex, surfaces_.mapped_normal(vertex));
     const Vec3 light =
-        albedo(vertex) * probe_light_->irradiance(Vec3d(vertex.position) + scene_.origin(), vertex.normal);
+        albedo(vertex) * probe_light_->irradiance(surfaces_.object_of(vertex),
+                                                  Vec3d(vertex.position) + scene_.origin(), vertex.normal);
     if (!own_lights_.sampled.lamps) return light;
     std::int64_t rays = 0;
     return light + reflected_radiance(scene_, vertex, own_lights_, sampler, rays);
