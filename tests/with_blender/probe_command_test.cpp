@@ -1,8 +1,10 @@
 // rnmbake probes on scenes of scenes/probe_rooms.py: who is asked for, what is refused, what comes out.
 #include "base/files.h"
+#include "image/layered_exr.h"
 #include "probes/volume_file.h"
 #include "with_blender/survey_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -137,6 +139,33 @@ TEST_F(ProbeCommandWithBlender, LightsWhatMoves) {
     EXPECT_LT(picture.at("relative_rmse").get<double>(), 1) << picture.at("label");
   }
   EXPECT_EQ(pictures, 7U);
+}
+
+/// Everything is lit by look-ups alone, spheres by their own probe: the picture has no noise.
+TEST_F(ProbeCommandWithBlender, ShowsProbesAsSpheres) {
+  (void)probes("rooms.blend", {"--dynamic", "ball"});
+  const auto picture = [&](const std::string& name, const Words& flags) {
+    Words words{"render",   path("rooms.blend"), "--probes", path("out"), "-o",
+                path(name), "--resolution",      "96x54",    "--samples", "4"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    const ProcessResult result = rnmbake(words);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return read_image(path(name)).find("albedo")->pixels;
+  };
+  const FloatImage with = picture("spheres.exr", {"--spheres"}), without = picture("plain.exr", {});
+  std::size_t red = 0, differ = 0;
+  for (int y = 0; y < with.height(); ++y) {
+    for (int x = 0; x < with.width(); ++x) {
+      const Vec3 colour = vec3_at(with, x, y);
+      if (colour != vec3_at(without, x, y)) ++differ;
+      if (colour.x > 0.5F && colour.y < 0.4F) ++red;  // filled ones
+    }
+  }
+  EXPECT_GT(differ, 100U);
+  EXPECT_EQ(red > 0,
+            std::ranges::any_of(read_volumes(path("out")).volumes[0].probes, [](const LightProbe& probe) {
+              return probe.state == LightProbe::State::filled;
+            }));
 }
 
 }  // namespace
