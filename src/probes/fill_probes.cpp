@@ -50,7 +50,7 @@ std::vector<std::vector<std::size_t>> neighbours_in_tree(const ProbeGrid& grid, 
   }
   for (std::vector<std::size_t>& beside : found) {
     std::ranges::sort(beside);
-    beside.erase(std::ranges::unique(beside).begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
   }
   return found;
 }

@@ -18,7 +18,7 @@ int side_of(std::size_t corner, std::size_t axis) {
 }
 
 std::size_t node_number(int x, int y, int z) {
-  return static_cast<std::size_t>(x + 3 * y + 9 * z);
+  return static_cast<std::size_t>(x) + 3 * static_cast<std::size_t>(y) + 9 * static_cast<std::size_t>(z);
 }
 
 /// Node of a cell that is a corner of one of its eight children.

@@ -41,7 +41,7 @@ Vec3 zh3_of(std::span<const Vec3> harmonics, const Vec3& normal) {
   static const float y0 = along({0, 0, 1})[0], y1 = along({0, 0, 1})[2];
   Vec3 light;
   for (int c = 0; c < 3; ++c) {
-    const Vec3d v(double(harmonics[3][c]), double(harmonics[1][c]), double(harmonics[2][c]));
+    const Vec3d v{double(harmonics[3][c]), double(harmonics[1][c]), double(harmonics[2][c])};
     light[c] =
         static_cast<float>(zh3_lobe(double(harmonics[0][c] * y0), v * double(y1), Vec3d(normal)).value);
   }

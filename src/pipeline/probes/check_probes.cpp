@@ -65,6 +65,7 @@ std::vector<GatheredProbe> gathered(const TraceScene& scene, const std::vector<V
                                     const ProbeGatherOptions& options, Progress& progress, double from,
                                     double to) {
   std::vector<Vec3> relative;
+  relative.reserve(at.size());
   for (const Vec3d& place : at) relative.emplace_back(place - scene.origin());
   auto found = gather_probes(
       scene, relative, options,
@@ -88,8 +89,9 @@ ProbeErrorRow errors_of(const std::vector<Vec3>& looked_up, const Truth& truth) 
   for (std::size_t i = 0; i < truth.first.size(); ++i) {
     double square = 0;
     for (std::size_t k = 0; k < directions; ++k) {
-      const Vec3 value = looked_up[i * directions + k], a = value - truth.first[i].irradiance[k],
-                 b = value - truth.second[i].irradiance[k], mean = (a + b) * 0.5F;
+      const Vec3& value = looked_up[i * directions + k];
+      const Vec3 a = value - truth.first[i].irradiance[k], b = value - truth.second[i].irradiance[k],
+                 mean = (a + b) * 0.5F;
       product += double(a.dot(b));
       sum += double(mean.x + mean.y + mean.z);
       square += double(mean.dot(mean));
@@ -153,6 +155,7 @@ ProbeCheck check_between(const TraceScene& scene, const std::vector<ProbeVolume>
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
   if (open.empty()) return check;
   std::vector<Vec3d> at;
+  at.reserve(open.size());
   for (const Place& place : open) at.push_back(place.at);
   Progress progress("checking", progress_for(log::is_quiet(), log::is_jsonl()));
   ProbeGatherOptions half = options;

@@ -31,6 +31,7 @@ ProbeBounds bounds_of(const SceneSurvey& survey, const std::vector<char>& dynami
 
 std::vector<std::string> names_of(const std::vector<ProbePlace>& places) {
   std::vector<std::string> names;
+  names.reserve(places.size());
   for (const ProbePlace& place : places) names.push_back(place.name);
   return names;
 }

@@ -9,8 +9,8 @@
 
 namespace rnmbake {
 
-ProbeCollector::ProbeCollector(const Plan& plan, std::vector<ProbeBlock> blocks, std::vector<ProbeTerm> terms,
-                               std::size_t directions)
+ProbeCollector::ProbeCollector(const Plan& plan, const std::vector<ProbeBlock>& blocks,
+                               std::vector<ProbeTerm> terms, std::size_t directions)
     : plan_(plan), terms_(std::move(terms)), directions_(directions) {
   std::size_t positions = 0;
   for (const ProbeBlock& block : blocks) {

@@ -27,7 +27,7 @@ struct ProbeTerm {
 class ProbeCollector : public PictureSink {
  public:
   /// `blocks`: [targets of the plan]. Every task has the settings of one of the terms.
-  ProbeCollector(const Plan& plan, std::vector<ProbeBlock> blocks, std::vector<ProbeTerm> terms,
+  ProbeCollector(const Plan& plan, const std::vector<ProbeBlock>& blocks, std::vector<ProbeTerm> terms,
                  std::size_t directions);
 
   void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) override;

@@ -39,6 +39,7 @@ Vec3d way_out(const Vec3d& from, const Surroundings& around, double most) {
 std::vector<Surroundings> look(const TraceScene& scene, const std::vector<Vec3d>& places,
                                const SurroundingsOptions& options) {
   std::vector<Vec3> relative;
+  relative.reserve(places.size());
   for (const Vec3d& place : places) relative.emplace_back(place - scene.origin());
   auto found = look_around(scene, relative, options, [] { return StopRequest::requested(); });
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};

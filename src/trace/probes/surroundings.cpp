@@ -1,5 +1,6 @@
 #include "trace/probes/surroundings.h"
 
+#include "sampling/maps.h"
 #include "sampling/octahedral.h"
 
 #include <algorithm>
