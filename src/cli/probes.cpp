@@ -10,6 +10,7 @@
 #include "pipeline/probes/probes_run.h"
 #include "pipeline/scene/export_scene.h"
 #include "probes/formats/formats.h"
+#include "probes/probe_tree.h"
 #include "probes/volume_file.h"
 #include "process/stop.h"
 
@@ -47,6 +48,7 @@ struct ProbesFlags {
 
   SettingsFlags settings;
   double spacing = 0;  // 0: not said
+  double error = 0;    // percent; 0: not said
   std::string bounds = "auto", lights = "all", by = "reference";
   ProbesOptions options;
   bool no_depth = false;
@@ -64,6 +66,11 @@ struct ProbesFlags {
     made.lights = *probe_lights_of(lights);
     made.source = by == "blender" ? ProbeSource::blender : ProbeSource::reference;
     made.settle.depth = !no_depth;
+    if (error > 0 && !made.places.points.empty())
+      fail(ExitCode::usage, "--error divides boxes of probes, and --points has none; leave it out");
+    made.refine.error = error / 100;
+    if (error > 0) made.places.levels = made.refine.levels;
+    made.regular = error > 0 && !to.empty();
     return made;
   }
 };
@@ -78,6 +85,10 @@ void say_what_came_out(const ProbesResult& result, const std::filesystem::path& 
     log::info("'{}': {} x {} x {} probes, {:.3g} x {:.3g} x {:.3g} units apart", volume.name, grid.counts[0],
               grid.counts[1], grid.counts[2], grid.steps[0].length(), grid.steps[1].length(),
               grid.steps[2].length());
+    if (volume.tree) {
+      log::info("'{}': {} with those of its tree, down to a {}th of that", volume.name, volume.probes.size(),
+                1 << depth_of(grid, *volume.tree));
+    }
   }
   log::info("{}", (folder / "probes.json").string());
 }
@@ -114,7 +125,8 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
   const ProbesResult result = run_probes(session, exported, scene, plan, options);
   write_volumes(flags.output, result.volumes, result.about);
   for (const std::string& name : flags.to) {
-    for (const auto& file : write_probe_format(name, result.volumes, flags.output / name))
+    for (const auto& file : write_probe_format(name, result.regular.empty() ? result.volumes : result.regular,
+                                               flags.output / name))
       log::info("{}: {}", name, file.string());
   }
   say_what_came_out(result, flags.output);
@@ -133,6 +145,18 @@ std::function<int()> add_probes_command(CLI::App& app) {
                    "between the probes of a box, units of the scene [about 1000 probes]")
       ->check(CLI::PositiveNumber.description(""))
       ->type_name("X");
+  command
+      ->add_option(
+          "--error", flags->error,
+          "put more probes where light between them errs by more than so many percent of the mean "
+          "light, as the reference finds it; --spacing is the widest then [about 125 probes at first]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("PERCENT");
+  command
+      ->add_option("--levels", flags->options.refine.levels,
+                   "with --error: how often the spacing is halved at most, 1 to 6 [3]")
+      ->check(CLI::Range(1, most_tree_levels).description(""))
+      ->type_name("N");
   command
       ->add_option("--bounds", flags->bounds,
                    "two corners of a box, filled with probes; auto: around all that does not move [auto]")

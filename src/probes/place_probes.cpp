@@ -45,7 +45,7 @@ ProbeBounds parse_bounds(const std::string& text) {
   return bounds;
 }
 
-ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing, double wanted) {
+ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing, double wanted, int levels) {
   const Vec3d size = bounds.high - bounds.low;
   const double longest = std::max({size.x, size.y, size.z});
   const double area = size.x * size.y + size.y * size.z + size.z * size.x;
@@ -60,14 +60,17 @@ ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing, doub
   ProbeGrid grid;
   double probes = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cells = std::max(1.0, std::round(size[axis] / step));
-    probes *= cells;
+    // `cells` of them between probes, 1 / 2^levels of one for both ends.
+    const double ends = std::ldexp(1.0, -levels);
+    const double cells =
+        size[axis] > 0 ? std::max(levels > 0 ? 1.0 : 0.0, std::round(size[axis] / step - ends)) : 0;
+    probes *= cells + 1;
     if (probes > most_probes) continue;
-    grid.counts[std::size_t(axis)] = static_cast<int>(cells);
-    const double width = size[axis] > 0 ? size[axis] / cells : step;
+    grid.counts[std::size_t(axis)] = static_cast<int>(cells) + 1;
+    const double width = size[axis] > 0 ? size[axis] / (cells + ends) : step;
     grid.steps[std::size_t(axis)] = Vec3d(0);
     grid.steps[std::size_t(axis)][axis] = width;
-    grid.first[axis] = size[axis] > 0 ? bounds.low[axis] + width / 2 : bounds.low[axis];
+    grid.first[axis] = bounds.low[axis] + (size[axis] > 0 ? width * ends / 2 : 0);
   }
   if (probes > most_probes) {
     fail(ExitCode::invalid_input,

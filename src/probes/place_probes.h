@@ -19,10 +19,12 @@ struct ProbeBounds {
 [[nodiscard]] ProbeBounds parse_bounds(const std::string& text);
 
 /// Probes in the middles of equal cells that fill the box, about `spacing` apart along each axis: at least
-/// one along each. Without a spacing about a thousand probes. Throws Error(invalid_input) where there would
-/// be more than most_probes, or the box is flat in two directions.
+/// one along each. Without a spacing about so many probes. With `levels`, for a tree whose cells are halved
+/// so often at most: its smallest cells would fill the box like that, so that the grid's own probes reach
+/// nearer to its sides; two along each axis at least where it is not flat. Throws Error(invalid_input) where
+/// there would be more than most_probes, or the box is flat in two directions.
 [[nodiscard]] ProbeGrid grid_in(const ProbeBounds& bounds, std::optional<double> spacing,
-                                double probes = 1000);
+                                double probes = 1000, int levels = 0);
 
 /// The cells' middles of the cube [-1, 1]^3 as `to_world` places it: Blender's light probe volumes.
 [[nodiscard]] ProbeGrid grid_in_cube(const Mat44& to_world, const std::array<int, 3>& counts);

@@ -21,12 +21,6 @@ std::size_t node_number(int x, int y, int z) {
   return static_cast<std::size_t>(x) + 3 * static_cast<std::size_t>(y) + 9 * static_cast<std::size_t>(z);
 }
 
-/// Node of a cell that is a corner of one of its eight children.
-std::size_t node_of_child(std::size_t child, std::size_t corner) {
-  return node_number(side_of(child, 0) + side_of(corner, 0), side_of(child, 1) + side_of(corner, 1),
-                     side_of(child, 2) + side_of(corner, 2));
-}
-
 /// Corners of the grid's cells must be the probes around them.
 bool fits_grid(const ProbeGrid& grid, const ProbeTree& tree) {
   const ProbeTree own = undivided_tree(grid);
@@ -61,6 +55,11 @@ std::array<int, 3> node_steps(std::size_t node) {
 
 std::size_t corner_node(std::size_t corner) {
   return node_number(2 * side_of(corner, 0), 2 * side_of(corner, 1), 2 * side_of(corner, 2));
+}
+
+std::size_t node_of_child(std::size_t child, std::size_t corner) {
+  return node_number(side_of(child, 0) + side_of(corner, 0), side_of(child, 1) + side_of(corner, 1),
+                     side_of(child, 2) + side_of(corner, 2));
 }
 
 LatticePlace CellPlace::node(std::size_t node) const {

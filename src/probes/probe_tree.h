@@ -27,6 +27,9 @@ using CellNodes = std::array<std::uint32_t, 27>;
 /// Number of the node that is a corner, x fastest.
 [[nodiscard]] std::size_t corner_node(std::size_t corner);
 
+/// Number of the node that is a corner of one of the cell's eight children, both x fastest.
+[[nodiscard]] std::size_t node_of_child(std::size_t child, std::size_t corner);
+
 /// Places of a tree, in steps of its finest lattice from the grid's first probe.
 using LatticePlace = std::array<int, 3>;
 inline constexpr int lattice_steps = 1 << most_tree_levels;  // from one probe of the grid to the next

@@ -83,7 +83,9 @@ std::vector<ProbeVolume> place_volumes(const SceneSurvey& survey, const PlaceWis
     if (!own.empty()) return volumes_of(own);
   }
   const ProbeBounds bounds = wishes.bounds ? *wishes.bounds : bounds_of(survey, dynamic);
-  return {empty_volume("volume", grid_in(bounds, wishes.spacing, wishes.probes))};
+  constexpr double divided = 8;  // fewer to begin with, as cells are halved where they need it
+  const double probes = wishes.levels > 0 ? wishes.probes / divided : wishes.probes;
+  return {empty_volume("volume", grid_in(bounds, wishes.spacing, probes, wishes.levels))};
 }
 
 std::vector<char> dynamic_objects(const SceneSurvey& survey, const std::vector<std::string>& patterns) {

@@ -17,6 +17,7 @@ struct PlaceWishes {
   std::optional<ProbeBounds> bounds;  // of a box; none: around the scene
   std::vector<std::string> at;        // patterns for names of empties and of Blender's light probe volumes
   std::filesystem::path points;       // a list; "": none
+  int levels = 0;                     // how often a box's cells may be halved (grid_in())
 };
 
 /// Throws Error(usage) where wishes exclude each other or a pattern fits nothing, and as grid_in() and

@@ -7,7 +7,10 @@
 #include "base/text.h"
 #include "pipeline/probes/bake_probes.h"
 #include "probes/fill_probes.h"
+#include "probes/probe_tree.h"
+#include "probes/regular_volume.h"
 #include "process/stop.h"
+#include "sampling/sampler.h"
 #include "trace/probes/gather_probes.h"
 
 #include <algorithm>
@@ -82,6 +85,7 @@ void light_by_blender(BlenderSession& session, const ExportResult& exported, con
     if (!baked.baked[i]) probes[i]->validity = 0;
     std::copy_n(baked.irradiance.begin() + std::ptrdiff_t(i * probe_direction_count), probe_direction_count,
                 probes[i]->irradiance.begin());
+    probes[i]->standard_error.fill(Vec3(0));  // not known
     probes[i]->harmonics = harmonics_of(probes[i]->irradiance);
   }
 }
@@ -110,6 +114,42 @@ void settle(const TraceScene& scene, const SettleOptions& options, std::vector<P
   }
 }
 
+/// Adds probes where the reference finds more light between them than they say.
+void refine(const TraceScene& scene, const ProbesOptions& options, const ProbeGatherOptions& gathering,
+            std::vector<ProbeVolume>& volumes) {
+  for (ProbeVolume& volume : volumes) {
+    const LightProbes light = [&](std::span<LightProbe* const> probes, std::uint64_t round) {
+      ProbeGatherOptions fresh = gathering;
+      fresh.seed = hash_of(hash_of(gathering.seed, 3), round);
+      light_by_reference(scene, fresh, probes);
+    };
+    const std::size_t before = volume.probes.size();
+    const RefineCounts counts = refine_probes(scene, options.settle, options.refine, light, volume);
+    if (!volume.tree) continue;
+    log::info("'{}': {} divided, {} added to {} of {} traced", volume.name, counted(counts.divided, "cell"),
+              counted(volume.probes.size() - before, "probe"), before, counts.lit);
+  }
+}
+
+/// Trees on regular grids, as fine as their smallest cells. What was between probes is looked around from.
+std::vector<ProbeVolume> regular_boxes(const TraceScene& scene, const SettleOptions& options,
+                                       const std::vector<ProbeVolume>& volumes) {
+  std::vector<ProbeVolume> boxes;
+  for (const ProbeVolume& volume : volumes) {
+    if (!volume.tree) {
+      boxes.push_back(volume);
+      continue;
+    }
+    const int level = depth_of(*volume.grid, *volume.tree);
+    RegularVolume made = regular_volume(volume, level);
+    look_again(scene, options, made.interpolated, reach_of(*volume.grid, level), made.volume);
+    log::info("'{}': {} of {} on the regular grid are interpolated", volume.name, made.interpolated.size(),
+              counted(made.volume.probes.size(), "probe"));
+    boxes.push_back(std::move(made.volume));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 void take_out(const std::vector<std::string>& dynamic, DiffuseScene& scene) {
@@ -128,21 +168,24 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
   if (options.source == ProbeSource::blender && !exported.blends)
     fail(ExitCode::usage, "--by blender needs the .blend; a .rnmscene holds what the tracer needs alone");
   settle(scene, options.settle, result.volumes);
-  const std::vector<LightProbe*> probes = probes_to_light(result.volumes);
-  log::info("lighting {} in {}", counted(probes.size(), "probe"), counted(result.volumes.size(), "volume"));
   const ObjectSettings& settings = session.settings().object;
   const ProbeGatherOptions gathering = gather_options(settings, plan, options.lights);
-  const bool by_blender = options.source == ProbeSource::blender;
-  if (by_blender) {
-    light_by_blender(session, exported, options, dynamic, probes);
-  } else {
+  const bool by_blender = options.source == ProbeSource::blender, refined = options.refine.error > 0;
+  // Where probes are to stand is found by the reference, which knows its noise; then Blender lights them all
+  // in one bake.
+  if (!by_blender || refined) {
+    const std::vector<LightProbe*> probes = probes_to_light(result.volumes);
+    log::info("lighting {} in {}", counted(probes.size(), "probe"), counted(result.volumes.size(), "volume"));
     light_by_reference(scene, gathering, probes);
   }
+  if (refined) refine(scene, options, gathering, result.volumes);
+  if (by_blender) light_by_blender(session, exported, options, dynamic, probes_to_light(result.volumes));
   for (ProbeVolume& volume : result.volumes) fill_probes(volume);
   if (options.check > 0) {
     result.check = check_between(scene, result.volumes, gathering, options.check);
     if (by_blender) result.check.agreement = check_at_probes(scene, result.volumes, gathering, options.check);
   }
+  if (options.regular) result.regular = regular_boxes(scene, options.settle, result.volumes);
   result.about = {{"scene", file_word(session.settings().scene.file.stem().string())},
                   {"blender", plan.blender_version},
                   {"source", by_blender ? "blender" : "reference"},
@@ -151,6 +194,7 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
                   {"seed", settings.seed},
                   {"bounces", plan.bounces},
                   {"dynamic", options.dynamic}};
+  if (refined) result.about["refined"] = {{"error", options.refine.error}, {"levels", options.refine.levels}};
   if (options.check > 0) result.about["check"] = check_json(result.check);
   return result;
 }

@@ -4,6 +4,7 @@
 #include "blender/blender_session.h"
 #include "pipeline/probes/check_probes.h"
 #include "pipeline/probes/place_volumes.h"
+#include "pipeline/probes/refine_probes.h"
 #include "pipeline/probes/settle_probes.h"
 #include "pipeline/reference/reference_plan.h"
 #include "pipeline/scene/export_scene.h"
@@ -26,12 +27,15 @@ struct ProbesOptions {
   ProbeSource source = ProbeSource::reference;
   bool lambert = false;  // Blender shows the materials that the reference traces, not the scene's own
   SettleOptions settle;
+  RefineOptions refine;
+  bool regular = false;     // make regular boxes out of trees as well
   std::size_t check = 200;  // places between the probes at which the truth is traced; 0: none
 };
 
 struct ProbesResult {
   std::vector<ProbeVolume> volumes;
-  nlohmann::json about;  // how they were found, for probes.json
+  std::vector<ProbeVolume> regular;  // where they were asked for: the same with trees on grids as fine
+  nlohmann::json about;              // how they were found, for probes.json
   ProbeCheck check;
 };
 
