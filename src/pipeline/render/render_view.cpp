@@ -41,7 +41,7 @@ class Shader {
     }
     if (lighting.kind == Lighting::Kind::decoded && lights.lightmaps == nullptr)
       fail(ExitCode::usage, "{} needs lightmaps", name_of(lighting));
-    if (takes_lightmaps()) decoders_ = lights.lightmaps->decoders(lighting.variant);
+    if (takes_lightmaps()) decoders_ = lights_.lightmaps->decoders(lighting.variant);
   }
 
   [[nodiscard]] Vec3 reflected(const Vertex& vertex, Sampler& sampler) const {
