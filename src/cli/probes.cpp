@@ -9,6 +9,7 @@
 #include "pipeline/probes/picture_probe.h"
 #include "pipeline/probes/probes_run.h"
 #include "pipeline/scene/export_scene.h"
+#include "pipeline/scene/make_targets.h"
 #include "probes/formats/formats.h"
 #include "probes/probe_tree.h"
 #include "probes/volume_file.h"
@@ -116,7 +117,8 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
   AtomicFile(flags.output / "probes.json")
       .write(" ");  // never committed: finds out now that nothing can be written
   BlenderSession session(config, blender);
-  ExportResult exported = export_scene(session);
+  ExportResult exported = export_surfaces(session);
+  check_light(config, exported.diffuse_scene.survey);
   options.lambert = config.globals.scene.materials == SceneSettings::Materials::lambert;
   options.settle.threads = config.globals.run.threads;
   const ReferencePlan plan = plan_reference(config, exported.diffuse_scene.survey.blender_version);

@@ -124,6 +124,44 @@ TEST_F(ProbeCommandWithBlender, RefusesInOneLine) {
   expect_refused("rooms.blend", {"--at", "spot*", "--spacing", "1"}, 1, "exclude each other");
 }
 
+TEST_F(ProbeCommandWithBlender, NeedsNoLightmapUvs) {
+  EXPECT_EQ(probes("full.blend", {"--spacing", "2"}).volumes[0].probes.size(), 8U);
+}
+
+TEST_F(ProbeCommandWithBlender, NeedsLightUnlessToldOtherwise) {
+  expect_refused("dark.blend", {}, 3, "pass --allow-dark");
+  const StoredVolumes black = probes("dark.blend", {"--spacing", "2", "--allow-dark"});
+  EXPECT_EQ(black.volumes[0].probes[0].irradiance[0], Vec3(0));
+}
+
+TEST_F(ProbeCommandWithBlender, WarnsWhereMostFacesPointAway) {
+  const auto said = [](const char* bounds, const char* spacing) {
+    ProcessOptions options;
+    options.argv = {RNMBAKE_BINARY,
+                    "probes",
+                    path("inside_out.blend"),
+                    "-o",
+                    path("turned"),
+                    "--bounds",
+                    bounds,
+                    "--spacing",
+                    spacing,
+                    "--samples",
+                    "16"};
+    const ProcessResult result = run_process(options);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return result.output;
+  };
+  constexpr auto most = "most probes see the backs of faces", none = "nothing was checked";
+  const std::string four_fifths = said("-2,-2,-2,3,2,2", "1"), third = said("-2,-2,-2,10,2,2", "1");
+  EXPECT_NE(four_fifths.find(most), std::string::npos) << four_fifths;
+  EXPECT_EQ(third.find(most), std::string::npos) << third;
+  EXPECT_EQ(third.find(none), std::string::npos) << third;
+  // All probes move up through the roof, and between their places there is only the inside.
+  const std::string roof = said("-1,-1,1.8,1,1,2.1", "0.3");
+  EXPECT_NE(roof.find(none), std::string::npos) << roof;
+}
+
 /// The ball stands in what the probes left out; each way to light it comes with its error.
 TEST_F(ProbeCommandWithBlender, LightsWhatMoves) {
   (void)probes("rooms.blend", {"--dynamic", "ball", "--samples", "256"});

@@ -153,7 +153,12 @@ ProbeCheck check_between(const TraceScene& scene, const std::vector<ProbeVolume>
   ProbeCheck check;
   const std::vector<Place> open = random_places(scene, volumes, places, options.seed);
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
-  if (open.empty()) return check;
+  if (open.empty()) {
+    if (probes_of_boxes(volumes) > 0)
+      log::warn("nothing was checked: of {} between the probes none is in the open",
+                counted(places, "random place"));
+    return check;
+  }
   std::vector<Vec3d> at;
   at.reserve(open.size());
   for (const Place& place : open) at.push_back(place.at);

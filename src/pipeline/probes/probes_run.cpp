@@ -90,6 +90,10 @@ void light_by_blender(BlenderSession& session, const ExportResult& exported, con
   }
 }
 
+constexpr const char* turn_faces =
+    "they stand inside of something, or the faces around them point the wrong way. Move the box, turn the "
+    "faces (in Blender: Mesh > Normals > Recalculate), or pass --two-sided where faces have no back";
+
 /// Settles all volumes, and says what became of them.
 void settle(const TraceScene& scene, const SettleOptions& options, std::vector<ProbeVolume>& volumes) {
   std::size_t probes = 0, buried = 0;
@@ -106,12 +110,9 @@ void settle(const TraceScene& scene, const SettleOptions& options, std::vector<P
     }
   }
   if (buried == probes) {
-    fail(ExitCode::invalid_input,
-         "all {} see the backs of faces: they stand inside of something, or the faces around them point the "
-         "wrong way. Move the box, turn the faces (in Blender: Mesh > Normals > Recalculate), or pass "
-         "--two-sided where faces have no back",
-         counted(probes, "probe"));
+    fail(ExitCode::invalid_input, "all {} see the backs of faces: {}", counted(probes, "probe"), turn_faces);
   }
+  if (2 * buried > probes) log::warn("most probes see the backs of faces: {}", turn_faces);
 }
 
 /// Adds probes where the reference finds more light between them than they say.

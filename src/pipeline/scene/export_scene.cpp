@@ -59,7 +59,7 @@ bool is_rnmscene(const fs::path& file) {
   return file.extension() == diffuse_scene_ending;
 }
 
-ExportResult export_scene(BlenderSession& session) {
+ExportResult export_surfaces(BlenderSession& session) {
   const fs::path file = session.settings().scene.file;
   ExportResult result;
   std::vector<std::string> logged;
@@ -80,6 +80,11 @@ ExportResult export_scene(BlenderSession& session) {
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
          file.string());
   }
+  return result;
+}
+
+ExportResult export_scene(BlenderSession& session) {
+  ExportResult result = export_surfaces(session);
   result.list = make_targets(session.config(), result.diffuse_scene.survey);
   keep_unwrapped(result.diffuse_scene.survey, result.list.targets);
   return result;

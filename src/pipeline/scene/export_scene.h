@@ -23,6 +23,10 @@ struct ExportResult {
 /// make_targets() and read_diffuse_scene().
 [[nodiscard]] ExportResult export_scene(BlenderSession& session);
 
+/// The same for those who have no use for targets: the list stays empty, nothing is unwrapped, and UVs made
+/// for lightmaps may be as they like.
+[[nodiscard]] ExportResult export_surfaces(BlenderSession& session);
+
 /// Whether the scene of the settings is a .rnmscene file.
 [[nodiscard]] bool is_rnmscene(const std::filesystem::path& file);
 

@@ -1,7 +1,8 @@
 """blender -b --factory-startup --python probe_rooms.py -- FOLDER
 
 rooms.blend: two rooms with a door in their common wall, a lamp in one, a ball that moves, one of Blender's light probe
-volumes, and empties. inside_out.blend: a box whose faces point outwards. empty.blend: a sun alone.
+volumes, and empties. inside_out.blend: a box whose faces point outwards. empty.blend: a sun alone. dark.blend: a room
+without light. full.blend: a lit room that has no place for another UV layer.
 """
 import os
 import sys
@@ -15,7 +16,8 @@ import squares  # noqa: E402
 
 
 def main(folder):
-    for name, build in (("rooms", rooms), ("inside_out", inside_out), ("empty", empty)):
+    for name, build in (("rooms", rooms), ("inside_out", inside_out), ("empty", empty), ("dark", dark),
+                        ("full", full)):
         squares.empty_dark_scene()
         build()
         bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, name + ".blend"))
@@ -71,6 +73,17 @@ def inside_out():
 
 def empty():
     sun()
+
+
+def dark():
+    return box("shell", (-2, -2, -2), (2, 2, 2), inwards=True)
+
+
+def full():
+    layers = dark().data.uv_layers
+    while len(layers) < 8:
+        layers.new()
+    bpy.ops.object.light_add(type="POINT")
 
 
 def sun():
