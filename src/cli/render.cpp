@@ -90,7 +90,7 @@ class OpenScene {
  private:
   ExportResult opened() {
     if (!is_rnmscene(config_.globals.scene.file)) (void)blender_.info();
-    ExportResult exported = export_scene(session_);
+    ExportResult exported = flags_.lightmaps.empty() ? export_surfaces(session_) : export_scene(session_);
     give_camera(exported, flags_.camera == "fit", flags_.size());
     return exported;
   }

@@ -126,6 +126,9 @@ TEST_F(ProbeCommandWithBlender, RefusesInOneLine) {
 
 TEST_F(ProbeCommandWithBlender, NeedsNoLightmapUvs) {
   EXPECT_EQ(probes("full.blend", {"--spacing", "2"}).volumes[0].probes.size(), 8U);
+  const ProcessResult result = rnmbake(
+      {"render", path("full.blend"), "--probes", path("out"), "-o", path("lit.exr"), "--resolution", "16x9"});
+  EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
 TEST_F(ProbeCommandWithBlender, NeedsLightUnlessToldOtherwise) {

@@ -59,6 +59,7 @@ RenderSurfaces::RenderSurfaces(const TraceScene& scene,
     if (!layer) continue;  // the smooth normal is all that counts
     if (const auto other = tangent_layers.find(i); other != tangent_layers.end()) layer = other->second;
     const Mesh& mesh = diffuse_scene.survey.mesh_of(object);
+    if (mesh.uv_layers.empty()) continue;  // as in Cycles
     const std::vector<Vec2>* uv = uv_layer(mesh, *layer);
     if (uv == nullptr) {
       fail(ExitCode::invalid_input,

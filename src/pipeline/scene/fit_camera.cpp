@@ -19,23 +19,28 @@ struct Box {
   Vec3d high = -low;
 };
 
-Box box_of(const SceneSurvey& survey, const std::vector<Target>& targets) {
-  Box box;
-  for (const Target& target : targets) {
-    const SceneObject& object = survey.objects[target.object];
-    const Mesh& mesh = survey.mesh_of(object);
-    for (const std::uint32_t triangle : target.part.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        Vec3d place;
-        const std::size_t corner = 3 * std::size_t(triangle) + k;
-        object.to_world.multVecMatrix(Vec3d(mesh.positions[mesh.corner_vertex(corner)]), place);
-        for (int axis = 0; axis < 3; ++axis) {
-          box.low[axis] = std::min(box.low[axis], place[axis]);
-          box.high[axis] = std::max(box.high[axis], place[axis]);
-        }
+void add(const SceneSurvey& survey, const SceneObject& object, const std::vector<std::uint32_t>& triangles,
+         Box& box) {
+  const Mesh& mesh = survey.mesh_of(object);
+  for (const std::uint32_t triangle : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3d place;
+      const std::size_t corner = 3 * std::size_t(triangle) + k;
+      object.to_world.multVecMatrix(Vec3d(mesh.positions[mesh.corner_vertex(corner)]), place);
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], place[axis]);
+        box.high[axis] = std::max(box.high[axis], place[axis]);
       }
     }
   }
+}
+
+Box box_of(const SceneSurvey& survey, const std::vector<Target>& targets) {
+  Box box;
+  for (const Target& target : targets) add(survey, survey.objects[target.object], target.part.triangles, box);
+  if (!targets.empty()) return box;
+  for (const SceneObject& object : survey.objects)
+    add(survey, object, survey.mesh_of(object).all_triangles(), box);
   return box;
 }
 
@@ -69,7 +74,7 @@ Camera fit_camera(const SceneSurvey& survey, const std::vector<Target>& targets,
 void give_camera(ExportResult& exported, bool always, const std::optional<std::pair<int, int>>& size) {
   std::optional<Camera>& camera = exported.diffuse_scene.camera;
   if (camera && !always) return;
-  if (!camera) log::info("the scene has no plain camera; looking at all that is baked (--camera fit)");
+  if (!camera) log::info("the scene has no plain camera; looking at all of it (--camera fit)");
   camera = fit_camera(exported.diffuse_scene.survey, exported.list.targets, size.value_or(default_size));
 }
 

@@ -12,8 +12,8 @@
 namespace rnmbake {
 
 /// Camera to the right of the front and above (Blender's front is -y), so that the axis-aligned box of all
-/// targets just fits into a picture of that size in pixels. It stands outside of that box, so it shows closed
-/// rooms from outside.
+/// targets, of all objects where there is no target, just fits into a picture of that size in pixels. It
+/// stands outside of that box, so it shows closed rooms from outside.
 [[nodiscard]] Camera fit_camera(const SceneSurvey& survey, const std::vector<Target>& targets,
                                 std::pair<int, int> size);
 

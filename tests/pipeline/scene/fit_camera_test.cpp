@@ -37,6 +37,14 @@ TEST(FitCamera, FramesAllThatIsBakedAndNoMore) {
   }
 }
 
+/// As `export_surfaces` leaves scenes.
+TEST(FitCamera, FramesAllThereIsWhereNothingIsBaked) {
+  const ExportResult scene = floor_under_sky();
+  const SceneSurvey& survey = scene.diffuse_scene.survey;
+  EXPECT_EQ(fit_camera(survey, {}, {960, 540}).to_world,
+            fit_camera(survey, scene.list.targets, {960, 540}).to_world);
+}
+
 TEST(FitCamera, GivesWayToTheScenesOwn) {
   ExportResult scene = floor_under_sky();
   scene.diffuse_scene.camera = Camera{};

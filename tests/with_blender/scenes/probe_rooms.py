@@ -83,6 +83,8 @@ def full():
     layers = dark().data.uv_layers
     while len(layers) < 8:
         layers.new()
+    for layer in layers:
+        layer.data.foreach_set("uv", [0] * (2 * len(layer.data)))
     bpy.ops.object.light_add(type="POINT")
 
 
