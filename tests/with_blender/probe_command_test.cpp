@@ -137,25 +137,19 @@ TEST_F(ProbeCommandWithBlender, NeedsLightUnlessToldOtherwise) {
   EXPECT_EQ(black.volumes[0].probes[0].irradiance[0], Vec3(0));
 }
 
-TEST_F(ProbeCommandWithBlender, WarnsWhereMostFacesPointAway) {
+TEST_F(ProbeCommandWithBlender, WarnsWhereProbesAreBlackOrInsideOfThings) {
   const auto said = [](const char* bounds, const char* spacing) {
     ProcessOptions options;
-    options.argv = {RNMBAKE_BINARY,
-                    "probes",
-                    path("inside_out.blend"),
-                    "-o",
-                    path("turned"),
-                    "--bounds",
-                    bounds,
-                    "--spacing",
-                    spacing,
-                    "--samples",
-                    "16"};
+    options.argv = {RNMBAKE_BINARY, "probes", path("inside_out.blend")};
+    for (const std::string& word :
+         Words{"-o", path("turned"), "--bounds", bounds, "--spacing", spacing, "--samples", "16"})
+      options.argv.push_back(word);
     const ProcessResult result = run_process(options);
     EXPECT_EQ(result.exit_code, 0) << result.output;
     return result.output;
   };
-  constexpr auto most = "most probes see the backs of faces", none = "nothing was checked";
+  constexpr auto most = "most probes see the backs of faces", none = "nothing was checked",
+                 black = "all probes are black";
   const std::string four_fifths = said("-2,-2,-2,3,2,2", "1"), third = said("-2,-2,-2,10,2,2", "1");
   EXPECT_NE(four_fifths.find(most), std::string::npos) << four_fifths;
   EXPECT_EQ(third.find(most), std::string::npos) << third;
@@ -163,6 +157,9 @@ TEST_F(ProbeCommandWithBlender, WarnsWhereMostFacesPointAway) {
   // All probes move up through the roof, and between their places there is only the inside.
   const std::string roof = said("-1,-1,1.8,1,1,2.1", "0.3");
   EXPECT_NE(roof.find(none), std::string::npos) << roof;
+  EXPECT_EQ(roof.find(black), std::string::npos) << roof;
+  const std::string shadow = said("-1,-1,-4,1,1,-2.2", "1");  // the sun stands straight above
+  EXPECT_NE(shadow.find(black), std::string::npos) << shadow;
 }
 
 /// The ball stands in what the probes left out; each way to light it comes with its error.

@@ -11,6 +11,7 @@
 #include "probes/regular_volume.h"
 #include "process/stop.h"
 #include "sampling/sampler.h"
+#include "scene/lighting.h"
 #include "trace/probes/gather_probes.h"
 
 #include <algorithm>
@@ -151,6 +152,15 @@ std::vector<ProbeVolume> regular_boxes(const TraceScene& scene, const SettleOpti
   return boxes;
 }
 
+/// What lights the scene may all be left out of the probes' light.
+void warn_of_black(const SceneSurvey& survey, std::span<LightProbe* const> probes) {
+  const auto is_black = [](const LightProbe* probe) {
+    return std::ranges::all_of(probe->irradiance, [](const Vec3& light) { return light == Vec3(0); });
+  };
+  if (may_be_lit(survey) && std::ranges::all_of(probes, is_black))
+    log::warn("all probes are black: no light reaches them, or --lights and --dynamic leave out what does");
+}
+
 }  // namespace
 
 void take_out(const std::vector<std::string>& dynamic, DiffuseScene& scene) {
@@ -181,6 +191,7 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
   }
   if (refined) refine(scene, options, gathering, result.volumes);
   if (by_blender) light_by_blender(session, exported, options, dynamic, probes_to_light(result.volumes));
+  warn_of_black(diffuse.survey, probes_to_light(result.volumes));
   for (ProbeVolume& volume : result.volumes) fill_probes(volume);
   if (options.check > 0) {
     result.check = check_between(scene, result.volumes, gathering, options.check);
