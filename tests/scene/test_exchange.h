@@ -34,6 +34,7 @@ inline DiffuseScene everything() {
   lamp.color = {1, 0.5, 0.25};
   lamp.sizes = {{"size", 0.1}, {"size_y", 0.2}};
   scene.survey.lights = {lamp};
+  scene.survey.probe_places = {{"volume", Mat44(), {4, 3, 2}}};
   scene.survey.world = "picture";
   scene.survey.warnings = {"picture missing"};
 
