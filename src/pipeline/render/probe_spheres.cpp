@@ -1,8 +1,8 @@
 #include "pipeline/render/probe_spheres.h"
 
 #include "base/error.h"
+#include "probes/cell_lookup.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -43,11 +43,14 @@ Mesh unit_sphere() {
   return mesh;
 }
 
-double radius_of(const ProbeVolume& volume) {
-  constexpr double share = 0.12, alone = 0.1;  // of the shortest step; units
-  if (!volume.grid) return alone;
-  const auto& steps = volume.grid->steps;
-  return share * std::min({steps[0].length(), steps[1].length(), steps[2].length()});
+/// [probes]; units.
+std::vector<double> radii_of(const ProbeVolume& volume) {
+  constexpr double share = 0.12, alone = 0.1;  // of the shortest step there; units
+  std::vector<double> radii(volume.probes.size(), alone);
+  if (!volume.grid) return radii;
+  const CellLookup cells(volume);
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = share * cells.least_step(i);
+  return radii;
 }
 
 }  // namespace
@@ -71,12 +74,14 @@ void add_probe_spheres(const std::vector<ProbeVolume>& volumes, DiffuseScene& sc
   const auto mesh = static_cast<int>(scene.survey.meshes.size());
   scene.survey.meshes.push_back(unit_sphere());
   for (const ProbeVolume& volume : volumes) {
-    for (const LightProbe& probe : volume.probes) {
+    const std::vector<double> radii = radii_of(volume);
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      const LightProbe& probe = volume.probes[i];
       SceneObject object;
       object.key = object.name = "light probe " + std::to_string(scene.survey.objects.size());
       object.type = "MESH";
       object.mesh = mesh;
-      object.to_world.setScale(Vec3d(radius_of(volume)));
+      object.to_world.setScale(Vec3d(radii[i]));
       for (int axis = 0; axis < 3; ++axis) object.to_world[3][axis] = probe.position[axis];
       object.slots = {""};
       scene.survey.objects.push_back(std::move(object));
