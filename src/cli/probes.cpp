@@ -87,7 +87,7 @@ void say_what_came_out(const ProbesResult& result, const std::filesystem::path& 
               grid.counts[1], grid.counts[2], grid.steps[0].length(), grid.steps[1].length(),
               grid.steps[2].length());
     if (volume.tree) {
-      log::info("'{}': {} with those of its tree, down to a {}th of that", volume.name, volume.probes.size(),
+      log::info("'{}': {} with those of its tree, down to 1/{} of that", volume.name, volume.probes.size(),
                 1 << depth_of(grid, *volume.tree));
     }
   }
