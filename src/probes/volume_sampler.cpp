@@ -147,7 +147,7 @@ VolumeSampler::VolumeSampler(const ProbeVolume& volume, ProbeEncoding encoding, 
       coefficients_(coefficients_of(encoding)),
       cells_(volume) {
   if (test == LeakTest::visibility && volume.depths.side == 0) {
-    fail(ExitCode::unsupported, "'{}' holds no distances to test visibility by; bake it with --depth",
+    fail(ExitCode::unsupported, "'{}' holds no distances to test visibility by; it was made with --no-depth",
          volume.name);
   }
   for (const LightProbe& probe : volume.probes) {
