@@ -195,7 +195,11 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
   for (ProbeVolume& volume : result.volumes) fill_probes(volume);
   if (options.check > 0) {
     result.check = check_between(scene, result.volumes, gathering, options.check);
-    if (by_blender) result.check.agreement = check_at_probes(scene, result.volumes, gathering, options.check);
+    if (by_blender) {
+      ProbeGatherOptions limited = gathering;
+      limited.bounces = session.settings().bake.bounces;  // as those of the bake
+      result.check.agreement = check_at_probes(scene, result.volumes, limited, options.check);
+    }
   }
   if (options.regular) result.regular = regular_boxes(scene, options.settle, result.volumes);
   result.about = {{"scene", file_word(session.settings().scene.file.stem().string())},
