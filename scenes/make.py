@@ -25,6 +25,7 @@ import kit  # noqa: E402
 import panels  # noqa: E402
 import smooth  # noqa: E402
 import suns  # noqa: E402
+import two_rooms  # noqa: E402
 
 SCENES = {
     "plane_sun": closed_forms.plane_sun,
@@ -39,6 +40,7 @@ SCENES = {
     "cave": cave.build,
     "panels": panels.build,
     "cobbles": cobbles.build,
+    "two_rooms": two_rooms.build,
     "attic": attic.build,
 }
 

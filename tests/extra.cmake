@@ -23,7 +23,7 @@ add_test(NAME docs.check
 add_test(NAME docs.claims COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/check_claims.py)
 set_tests_properties(docs.check docs.claims PROPERTIES LABELS unit TIMEOUT 300 COST 1000)
 
-foreach(CHECK accuracy tracing)
+foreach(CHECK accuracy tracing volumes)
   add_test(NAME bench.${CHECK}
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/bench/${CHECK}_check.py)
   set_tests_properties(bench.${CHECK} PROPERTIES LABELS unit TIMEOUT 60)
