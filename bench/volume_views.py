@@ -16,8 +16,8 @@ PAGE, PICTURE = ROOT / "docs" / "volumes.md", ROOT / "docs" / "images" / "volume
 # scene: statue's turn and place, camera's place, --bounds, --spacing, exposure in stops
 VIEWS = {"hall": (0, "0.3,4.9,1.1", "0,2.6,1.5", "-5.2,0,0,5.2,12.8,4.6", 1, 1),
          "two_rooms": (180, "4.72,0.62,1.1", "5.4,2.9,1.5", "0,0,0,8.1,4,3", 1.3, 3)}
-SHOWN = {"truth": "truth", "probes, cube, leak test visibility": "cube, leak test",
-         "probes, sh3, leak test none": "sh3, no leak test", "probes, sh3, leak test visibility": "sh3, leak test"}
+SHOWN = {"truth": "truth", "cube probes (visibility test)": "cube, leak test",
+         "sh3 probes (no leak test)": "sh3, no leak test", "sh3 probes (visibility test)": "sh3, leak test"}
 SIDE, WIDTH = 240, 1.1  # pixels of a picture; units of the statue
 
 

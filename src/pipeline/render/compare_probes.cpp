@@ -41,8 +41,9 @@ FloatImage lit_pixels(const TraceScene& scene, const SceneProbes& probes, const 
 }
 
 std::string label_of(const ProbeLookup& lookup) {
-  return "probes, " + std::string(probe_encoding_names[std::size_t(lookup.encoding)]) + ", leak test " +
-         std::string(leak_test_names[std::size_t(lookup.test)]);
+  const std::string test(leak_test_names[std::size_t(lookup.test)]);
+  return std::string(probe_encoding_names[std::size_t(lookup.encoding)]) + " probes (" +
+         (lookup.test == LeakTest::none ? "no leak test" : test + " test") + ")";
 }
 
 }  // namespace
