@@ -13,13 +13,14 @@ import measure
 import memory
 import overhead
 import preparation
+import probes
 import ssbump
 import startup
 import tracing
 
 BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "memory": memory, "preparation": preparation,
               "startup": startup, "tracing": tracing, "ssbump": ssbump,
-              "convert": convert}
+              "convert": convert, "probes": probes}
 RESULTS = Path(__file__).resolve().parent / "results"
 DOCUMENT = measure.ROOT / "docs/performance.md"
 INTRODUCTION = """# Performance
