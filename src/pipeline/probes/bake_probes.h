@@ -35,11 +35,11 @@ struct BakedProbes {
 ///
 /// Light of one kind comes from differences: a DIFFUSE bake with no bounces is the direct light alone, what
 /// rays that leave the probe meet of sky and glowing surfaces included, and has the very samples of direct
-/// light that a bake with bounces has. So `bounced` = all - direct has no noise of direct light, and
-/// `no_lamps` adds direct light without lamps to that. (Blender's own filter INDIRECT loses all light of
-/// lamps in 3.4.1: a plane of albedo 0.5 under a sun of E = pi gives 0 from below, not 0.5.) A difference
-/// below 0 is rounding, or noise where the two were baked over different atlases after a failure, and becomes
-/// 0.
+/// light that a bake with bounces has (so in 3.4.1, 4.3.2 and 5.2.2). So `bounced` = all - direct has no
+/// noise of direct light, and `no_lamps` adds direct light without lamps to that. (Blender's own filter
+/// INDIRECT loses all light of lamps in 3.4.1: a plane of albedo 0.5 under a sun of E = pi gives 0 from
+/// below, not 0.5.) A difference below 0 is rounding, or noise where the two were baked over different
+/// atlases after a failure, and becomes 0.
 ///
 /// Positions that Blender failed at are logged as errors and not marked as baked. Throws Interrupted, and
 /// Error where going on makes no sense.
