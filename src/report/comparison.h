@@ -74,7 +74,8 @@ struct ViewPicture {
   FloatImage picture;  // RGB, linear
   bool has_error = false;
   double rmse = 0, relative_rmse = 0, bias = 0, relative_bias = 0;  // against the view's first picture
-  int bytes = 0;  // of a texel of the lightmaps that it is lit by; 0: by none
+  int bytes = 0;  // of a texel of the lightmaps, or of a probe, that it is lit by; 0: by none
+  bool by_probes = false;
 };
 
 /// One camera's view, rendered in several ways; the first picture is what the others are compared with.

@@ -109,7 +109,10 @@ json json_of(const StudyPoint& point) {
 
 json json_of(const ViewPicture& picture) {
   json entry{{"label", picture.label}};
-  if (picture.bytes > 0) entry["bytes"] = picture.bytes;
+  if (picture.bytes > 0) {
+    entry["bytes"] = picture.bytes;
+    entry["bytes_of"] = picture.by_probes ? "probe" : "texel";
+  }
   if (!picture.has_error) return entry;
   entry["rmse"] = picture.rmse;
   entry["relative_rmse"] = picture.relative_rmse;

@@ -223,9 +223,12 @@ ProbeAgreement check_at_probes(const TraceScene& scene, const std::vector<ProbeV
 std::string agreement_text(const ProbeAgreement& it, double mean) {
   constexpr double beyond_doubt = 4;  // standard errors: once in 16,000 by chance
   const bool is_biased = std::abs(it.bias) > beyond_doubt * it.noise;
-  return fmt::format("Blender against the reference at {}: {} ({} +- {} %), RMSE with noise {} %",
+  return fmt::format("Blender against the reference at {}: {} ({} +- {} %), RMSE with noise {} %{}",
                      counted(it.probes, "probe"), is_biased ? "biased" : "no bias beyond the noise",
-                     share_of(it.bias, mean), share_of(it.noise, mean), share_of(it.rmse, mean));
+                     share_of(it.bias, mean), share_of(it.noise, mean), share_of(it.rmse, mean),
+                     it.own_materials ? "; the reference traces the diffuse part of materials, --materials "
+                                        "lambert gives Blender the same"
+                                      : "");
 }
 
 std::string check_text(const ProbeCheck& check) {

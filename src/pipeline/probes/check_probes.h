@@ -29,6 +29,7 @@ struct ProbeAgreement {
   std::size_t probes = 0;
   double rmse = 0;             // E/pi, noise of both sides included
   double bias = 0, noise = 0;  // mean difference, and its standard error
+  bool own_materials = false;  // Blender showed the scene's, of which the reference has the diffuse part
 };
 
 struct ProbeCheck {

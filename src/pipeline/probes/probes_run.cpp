@@ -199,6 +199,7 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
       ProbeGatherOptions limited = gathering;
       limited.bounces = session.settings().bake.bounces;  // as those of the bake
       result.check.agreement = check_at_probes(scene, result.volumes, limited, options.check);
+      result.check.agreement->own_materials = !options.lambert;
     }
   }
   if (options.regular) result.regular = regular_boxes(scene, options.settle, result.volumes);

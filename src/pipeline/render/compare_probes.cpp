@@ -65,6 +65,7 @@ ViewComparison compare_probes_view(const TraceScene& scene, const SurfaceLights&
   const auto add = [&](const ProbeLookup& lookup) {
     view.pictures.push_back(compared(
         label_of(lookup), looked_up(scene, lights, {Lighting::Kind::probes, {}, lookup}, options), truth));
+    view.pictures.back().by_probes = true;
     view.pictures.back().bytes = static_cast<int>(6 * colours_of[std::size_t(lookup.encoding)]);
   };
   for (std::size_t i = 0; i < probe_encoding_names.size(); ++i)

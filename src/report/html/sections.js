@@ -6,7 +6,7 @@ function section(id, heading, ...content) {
 
 function facts() {
   const first = report.scene[0];
-  const cards = [[String(report.objects.length), report.objects.length === 1 ? 'object' : 'objects']];
+  const count = report.objects.length, cards = count ? [[String(count), count === 1 ? 'object' : 'objects']] : [];
   if (first) {
     cards.push([thousands(first.texels), 'texels']);
     const worst = report.scene.reduce((a, b) => Math.abs(b.relative_bias.value) > Math.abs(a.relative_bias.value) ? b : a);
@@ -105,7 +105,7 @@ function viewsSection() {
 
 function viewOf(view, entries) {
   const own = {exposure: 0, scale: look.scale}, stage = el('div', {class: 'quiet'}, 'Loading…');
-  const size = picture => 'bytes' in picture ? `, ${picture.bytes} bytes a texel` : '';
+  const size = picture => 'bytes' in picture ? `, ${picture.bytes} bytes a ${picture.bytes_of}` : '';
   const label = picture => picture.label + ('relative_rmse' in picture ? ` (RMSE ${percent(picture.relative_rmse)}${size(picture)})` : '');
   const show = async () => {
     const shown = view.pictures.map((picture, i) => ({picture, entry: entries[i]})).filter(one => one.entry);
