@@ -59,7 +59,8 @@ def mosaic(pictures, folder):
         tab.screenshot(folder / "mosaic.png", whole=False)
     finally:
         tab.close()
-    subprocess.run(["oiiotool", folder / "mosaic.png", "--ch", "R,G,B", "--compression", "jpeg:80", "-o", PICTURE], check=True)
+    subprocess.run(["oiiotool", "--nosoftwareattrib", folder / "mosaic.png", "--ch", "R,G,B", "--eraseattrib", "Software|Exif:.*",
+                    "--compression", "jpeg:80", "-o", PICTURE], check=True)
 
 
 def main():

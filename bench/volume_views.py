@@ -80,7 +80,8 @@ def mosaic(shown, folder):
         tab.screenshot(folder / "mosaic.png", whole=False)
     finally:
         tab.close()
-    subprocess.run(["oiiotool", folder / "mosaic.png", "--ch", "R,G,B", "--compression", "jpeg:85", "-o", PICTURE], check=True)
+    subprocess.run(["oiiotool", "--nosoftwareattrib", folder / "mosaic.png", "--ch", "R,G,B", "--eraseattrib", "Software|Exif:.*",
+                    "--compression", "jpeg:85", "-o", PICTURE], check=True)
 
 
 def write(out, samples):

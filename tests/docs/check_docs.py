@@ -174,6 +174,11 @@ class Documentation(unittest.TestCase):
         self.assertEqual([word for word in sorted(words) if f"`{word}`" not in explained], [],
                          "explain them in docs/inspect.md under The words")
 
+    def test_pictures_do_not_say_where_they_were_made(self):
+        for picture in sorted((ROOT / "docs" / "images").iterdir()):
+            with self.subTest(picture=picture.name):
+                self.assertNotIn(b"oiiotool", picture.read_bytes(), "its metadata holds a command line; write it with --nosoftwareattrib")
+
     def test_links_lead_somewhere(self):
         for page in pages():
             for place, line in without_code(page):

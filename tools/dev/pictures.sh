@@ -4,7 +4,7 @@ views=out/pictures/views
 
 # Views side by side, as shown on a screen. The arguments name them: upper left, upper right, lower left, lower right.
 mosaic() {
-  oiiotool "${@/#/$views/}" --mosaic:pad=4 2x2 --clamp:min=0:max=1 --colorconvert linear sRGB --ch R,G,B \
+  oiiotool --nosoftwareattrib "${@/#/$views/}" --eraseattrib "Software|Exif:.*" --mosaic:pad=4 2x2 --clamp:min=0:max=1 --colorconvert linear sRGB --ch R,G,B \
     -d uint8 --compression jpeg:92 -o docs/images/views.jpg
 }
 
