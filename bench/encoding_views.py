@@ -1,17 +1,13 @@
 """One view of panels as Cycles, Eevee and each encoding show it, into docs/encodings.md and docs/images/encodings.jpg."""
 import argparse
-import html
 import json
 import pathlib
 import re
 import subprocess
-import sys
 
 import document
+import mosaic
 from measure import RNMBAKE, ROOT, run
-
-sys.path.insert(0, str(ROOT / "tests" / "report"))
-import browser  # noqa: E402
 
 PAGE, PICTURE = ROOT / "docs" / "encodings.md", ROOT / "docs" / "images" / "encodings.jpg"
 SCENE = ROOT / "scenes" / "built" / "panels.blend"
@@ -38,29 +34,15 @@ def words(picture):
     return picture["label"] + size + error
 
 
-def mosaic(pictures, folder):
-    """Side by side, each under its words, as a browser sets them: oiiotool finds no letters on every machine."""
+def shown(pictures, folder):
+    """[(words, picture)], as a screen shows it."""
     figures = []
     for picture in pictures:
         name = re.sub("[^a-z0-9]+", "-", picture["label"].lower()).strip("-")
         subprocess.run(["oiiotool", folder / f"{name}.exr", "--ch", "R,G,B", "--clamp:min=0:max=1", "--colorconvert", "linear",
                         "sRGB", "-d", "uint8", "-o", folder / f"{name}.png"], check=True)
-        figures.append(f"<figure>{html.escape(words(picture))}<img src='{name}.png'></figure>")
-    page = folder / "mosaic.html"
-    page.write_text("<!DOCTYPE html><meta charset='utf-8'><style>body { margin: 4px; display: grid; gap: 4px; font: 13px sans-serif; "
-                    f"grid-template-columns: repeat({COLUMNS}, {WIDTH}px) }} figure {{ margin: 0 }} img {{ display: block }}</style>"
-                    f"<html data-ready='yes'>{''.join(figures)}", encoding="utf-8")
-    tab = browser.Browser()
-    try:
-        rows = -(-len(pictures) // COLUMNS)
-        tab.look_like(COLUMNS * (WIDTH + 4) + 4, rows * (HEIGHT + 20) + 4)
-        tab.open(page)
-        tab.wait("[...document.images].every(one => one.complete && one.naturalWidth > 0)")
-        tab.screenshot(folder / "mosaic.png", whole=False)
-    finally:
-        tab.close()
-    subprocess.run(["oiiotool", "--nosoftwareattrib", folder / "mosaic.png", "--ch", "R,G,B", "--eraseattrib", "Software|Exif:.*",
-                    "--compression", "jpeg:80", "-o", PICTURE], check=True)
+        figures.append((words(picture), folder / f"{name}.png"))
+    return figures
 
 
 def main():
@@ -71,7 +53,8 @@ def main():
     parser.add_argument("--samples", default="256", help="of a pixel")
     args = parser.parse_args()
     pictures = views(args.out, args)
-    mosaic(pictures, args.out / "views")
+    folder = args.out / "views"
+    mosaic.write(shown(pictures, folder), folder, COLUMNS, (WIDTH, HEIGHT), 13, 80, PICTURE)
     rows = [f"| {p['label']} | {p.get('bytes', '')} | {100 * p['relative_rmse']:.1f} | {100 * p['relative_bias']:+.1f} |"
             for p in pictures if "relative_rmse" in p]
     document.renew(PAGE, "\n| | bytes | RMSE, % of the truth's mean | bias % |\n|---|---:|---:|---:|\n" + "\n".join(rows)

@@ -1,16 +1,12 @@
 """A statue in the light of probes beside the truth, into docs/volumes.md and docs/images/volumes.jpg."""
-import html
 import json
 import re
 import subprocess
-import sys
 
 import document
 import measure
+import mosaic
 from measure import RNMBAKE, ROOT, run
-
-sys.path.insert(0, str(ROOT / "tests" / "report"))
-import browser  # noqa: E402
 
 PAGE, PICTURE = ROOT / "docs" / "volumes.md", ROOT / "docs" / "images" / "volumes.jpg"
 # scene: statue's turn and place, camera's place, --bounds, --spacing, exposure in stops
@@ -63,32 +59,12 @@ def error_of(row):
     return f": {100 * row['relative_rmse']:.1f} %" if "relative_rmse" in row else ""
 
 
-def mosaic(shown, folder):
-    """Side by side, each under its words, as a browser sets them: oiiotool finds no letters on every machine."""
-    figures = [f"<figure>{html.escape(words + error_of(row))}<img src='{picture.relative_to(folder)}'></figure>"
-               for words, picture, row in shown]
-    columns = len(SHOWN)
-    page = folder / "mosaic.html"
-    page.write_text("<!DOCTYPE html><meta charset='utf-8'><style>body { margin: 4px; display: grid; gap: 4px; font: 12px sans-serif; "
-                    f"grid-template-columns: repeat({columns}, {SIDE}px) }} figure {{ margin: 0 }} img {{ display: block }}</style>"
-                    f"<html data-ready='yes'>{''.join(figures)}", encoding="utf-8")
-    tab = browser.Browser()
-    try:
-        tab.look_like(columns * (SIDE + 4) + 4, len(shown) // columns * (SIDE + 19) + 4)
-        tab.open(page)
-        tab.wait("[...document.images].every(one => one.complete && one.naturalWidth > 0)")
-        tab.screenshot(folder / "mosaic.png", whole=False)
-    finally:
-        tab.close()
-    subprocess.run(["oiiotool", "--nosoftwareattrib", folder / "mosaic.png", "--ch", "R,G,B", "--eraseattrib", "Software|Exif:.*",
-                    "--compression", "jpeg:85", "-o", PICTURE], check=True)
-
-
 def write(out, samples):
     """`samples`: of a pixel of the truth."""
     out = out.resolve()
     shown = [one for name in VIEWS for one in view(name, out / name, samples)]
-    mosaic(shown, out)
+    figures = [(words + error_of(row), picture) for words, picture, row in shown]
+    mosaic.write(figures, out, len(SHOWN), (SIDE, SIDE), 12, 85, PICTURE)
     rows = [f"| {words} | {100 * row['relative_rmse']:.1f} | {100 * row['relative_bias']:+.1f} |"
             for words, _, row in shown if "relative_rmse" in row]
     document.renew(PAGE, "\n| over the statue's pixels | RMSE, % of the truth's mean | bias % |\n|---|---:|---:|\n" + "\n".join(rows)

@@ -21,17 +21,6 @@ struct LeakCase {
   ProbeBounds near_side;     // probes outside of it stand on the other side of the wall
 };
 
-/// Walls that face inwards; outwards where it is turned round.
-std::vector<Quad> box(const Vec3& low, const Vec3& high, bool inwards = true) {
-  const Vec3 middle = (low + high) / 2, half = (high - low) / 2;
-  std::vector<Quad> quads = room(1);
-  for (Quad& quad : quads) {
-    for (Vec3& corner : quad) corner = middle + corner * half;
-    if (!inwards) std::swap(quad[1], quad[3]);
-  }
-  return quads;
-}
-
 /// Two closed rooms, 10 cm apart, a lamp in one; the places by the wall.
 LeakCase thin_wall() {
   LeakCase it;
@@ -86,10 +75,8 @@ std::vector<Vec3d> places_in(const ProbeBounds& bounds, int count) {
 
 /// Means over the normals, for each place.
 std::vector<double> arriving(const TraceScene& scene, const std::vector<Vec3d>& places, int samples) {
-  std::vector<Vec3> relative;
-  for (const Vec3d& place : places) relative.emplace_back(place - scene.origin());
   std::vector<double> means;
-  for (const GatheredProbe& probe : probes_at(scene, relative, {}, samples, 5)) {
+  for (const GatheredProbe& probe : probes_at(scene, places, {}, samples, 5)) {
     double sum = 0;
     for (const Vec3& light : probe.irradiance) sum += double(light.x + light.y + light.z) / 3;
     means.push_back(sum / double(probe_direction_count));

@@ -207,11 +207,10 @@ void add_encodings(const TraceScene& open, const StatueStudy& study, const std::
   std::array<Errors, probe_encoding_names.size()> errors;
   for (const PlaceTruth& truth : truths) {
     std::array<std::vector<GatheredProbe>, noise_batches> probes;
-    std::vector<Vec3> positions;
-    for (const SurfacePoint& point : points)
-      positions.emplace_back(truth.place + point.position - open.origin());
+    std::vector<Vec3d> places;
+    for (const SurfacePoint& point : points) places.push_back(truth.place + point.position);
     for (std::size_t b = 0; b < noise_batches; ++b)
-      probes[b] = probes_at(open, positions, study.direct, study.samples / 2, hash_of(13, b));
+      probes[b] = probes_at(open, places, study.direct, study.samples / 2, hash_of(13, b));
     for (std::size_t e = 0; e < errors.size(); ++e) {
       const auto encoding = static_cast<ProbeEncoding>(e);
       Batches values;

@@ -1,6 +1,7 @@
 #include "volumes/lit_volume.h"
 
 #include "encoding/basis_set.h"
+#include "pipeline/probes/reference_light.h"
 #include "pipeline/probes/settle_probes.h"
 #include "probes/fill_probes.h"
 #include "sampling/sampler.h"
@@ -12,14 +13,13 @@
 
 namespace rnmbake {
 
-std::vector<GatheredProbe> probes_at(const TraceScene& scene, std::span<const Vec3> positions,
+std::vector<GatheredProbe> probes_at(const TraceScene& scene, std::span<const Vec3d> places,
                                      const DirectLight& direct, int samples, std::uint64_t seed) {
-  ProbeGatherOptions options;
-  options.directions.assign(probe_directions().begin(), probe_directions().end());
+  ProbeGatherOptions options = probe_gathering();
   options.direct = direct;
   options.samples = samples;
   options.seed = seed;
-  return gather_probes(scene, positions, options);
+  return gather_at(scene, places, options);
 }
 
 LightProbe as_probe(const GatheredProbe& gathered) {
@@ -33,14 +33,12 @@ ProbeVolume lit_volume(const TraceScene& scene, const ProbeBounds& bounds, doubl
                        const DirectLight& direct, int samples) {
   ProbeVolume volume = empty_volume("box", grid_in(bounds, spacing));
   settle_probes(scene, {}, volume);
-  std::vector<Vec3> positions;
-  for (const LightProbe& probe : volume.probes) positions.emplace_back(probe.position - scene.origin());
-  const auto gathered = probes_at(scene, positions, direct, samples, 0);
-  for (std::size_t i = 0; i < gathered.size(); ++i) {
-    const LightProbe lit = as_probe(gathered[i]);
-    volume.probes[i].irradiance = lit.irradiance;
-    volume.probes[i].harmonics = lit.harmonics;
-  }
+  ProbeGatherOptions options = probe_gathering();
+  options.direct = direct;
+  options.samples = samples;
+  std::vector<LightProbe*> probes;
+  for (LightProbe& probe : volume.probes) probes.push_back(&probe);
+  light_by_reference(scene, probes, options);
   fill_probes(volume);
   return volume;
 }

@@ -18,7 +18,7 @@ namespace rnmbake {
 [[nodiscard]] ProbeVolume lit_volume(const TraceScene& scene, const ProbeBounds& bounds, double spacing,
                                      const DirectLight& direct, int samples);
 
-[[nodiscard]] std::vector<GatheredProbe> probes_at(const TraceScene& scene, std::span<const Vec3> positions,
+[[nodiscard]] std::vector<GatheredProbe> probes_at(const TraceScene& scene, std::span<const Vec3d> places,
                                                    const DirectLight& direct, int samples,
                                                    std::uint64_t seed);
 /// In a sound place.

@@ -112,7 +112,7 @@ class OpenScene {
     if (!flags_.leak_test.empty()) {
       lookup.test = *leak_test_of(flags_.leak_test);
     } else if (probes_) {
-      lookup.test = probes_->best_test();
+      lookup.test = leak_tests_for(probes_->volumes()).back();
     }
     return lookup;
   }

@@ -21,20 +21,6 @@ std::optional<std::size_t> place_in(const std::array<std::string_view, N>& names
   return static_cast<std::size_t>(found - names.begin());
 }
 
-std::size_t coefficients_of(ProbeEncoding encoding) {
-  switch (encoding) {
-    case ProbeEncoding::cube:
-    case ProbeEncoding::cube_fit:
-      return 6;
-    case ProbeEncoding::sh2:
-    case ProbeEncoding::zh3:
-      return 4;
-    case ProbeEncoding::sh3:
-      break;
-  }
-  return 9;
-}
-
 /// The mean (over directions) and the flow of light out of harmonics of radiance, as zh3_lobe() takes them.
 Vec3 zh3_of(std::span<const Vec3> harmonics, const Vec3& normal) {
   const auto along = [](const Vec3& axis) { return sh_irradiance_basis(axis); };
@@ -110,6 +96,28 @@ std::optional<LeakTest> leak_test_of(std::string_view name) {
   const auto place = place_in(leak_test_names, name);
   if (!place) return std::nullopt;
   return static_cast<LeakTest>(*place);
+}
+
+std::vector<LeakTest> leak_tests_for(std::span<const ProbeVolume> volumes) {
+  std::vector<LeakTest> tests{LeakTest::none, LeakTest::validity};
+  const bool have_distances = std::ranges::all_of(
+      volumes, [](const ProbeVolume& volume) { return !volume.grid || volume.depths.side > 0; });
+  if (have_distances) tests.push_back(LeakTest::visibility);
+  return tests;
+}
+
+std::size_t coefficients_of(ProbeEncoding encoding) {
+  switch (encoding) {
+    case ProbeEncoding::cube:
+    case ProbeEncoding::cube_fit:
+      return 6;
+    case ProbeEncoding::sh2:
+    case ProbeEncoding::zh3:
+      return 4;
+    case ProbeEncoding::sh3:
+      break;
+  }
+  return 9;
 }
 
 std::vector<Vec3> encoded_probe(const LightProbe& probe, ProbeEncoding encoding) {

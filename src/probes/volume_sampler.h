@@ -35,6 +35,11 @@ enum class LeakTest {
 inline constexpr std::array<std::string_view, 3> leak_test_names{"none", "validity", "visibility"};
 [[nodiscard]] std::optional<LeakTest> leak_test_of(std::string_view name);
 
+/// Those that all boxes among the volumes allow, the best last.
+[[nodiscard]] std::vector<LeakTest> leak_tests_for(std::span<const ProbeVolume> volumes);
+
+/// Colours that are kept of a probe.
+[[nodiscard]] std::size_t coefficients_of(ProbeEncoding encoding);
 /// Coefficients of one probe, E/pi.
 [[nodiscard]] std::vector<Vec3> encoded_probe(const LightProbe& probe, ProbeEncoding encoding);
 /// E/pi, RGB, for a unit normal, world space. May be negative where the encoding is.

@@ -121,6 +121,13 @@ Visibility TraceScene::visibility(const Ray& ray) const {
   return query.tfar < 0 ? Visibility{Vec3(0), 0} : query_state.visibility;
 }
 
+std::vector<Vec3> TraceScene::relative(std::span<const Vec3d> places) const {
+  std::vector<Vec3> found;
+  found.reserve(places.size());
+  for (const Vec3d& place : places) found.emplace_back(place - origin_);
+  return found;
+}
+
 void TraceScene::visibility(std::span<const Ray> rays, Visibility* results) const {
   if (rays.size() == 1 || accelerator_->see_through()) {
     for (const Ray& ray : rays) *results++ = visibility(ray);

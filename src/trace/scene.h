@@ -68,6 +68,8 @@ class TraceScene {
   [[nodiscard]] const DiffuseScene& diffuse_scene() const { return diffuse_scene_; }
   /// In the exchange's world.
   [[nodiscard]] const Vec3d& origin() const { return origin_; }
+  /// Places in the exchange's world as rays take them.
+  [[nodiscard]] std::vector<Vec3> relative(std::span<const Vec3d> places) const;
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
   [[nodiscard]] const Lights& lights() const { return lights_; }
   [[nodiscard]] const SurfaceMaterials& materials() const { return materials_; }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rnmbake {
@@ -72,6 +73,17 @@ inline std::vector<Quad> room(float half, const Vec3& middle = Vec3(0)) {
           {at(1, 1, -1), at(1, 1, 1), at(-1, 1, 1), at(-1, 1, -1)},
           {at(-1, 1, -1), at(-1, 1, 1), at(-1, -1, 1), at(-1, -1, -1)},
           {at(1, -1, -1), at(1, -1, 1), at(1, 1, 1), at(1, 1, -1)}};
+}
+
+/// Six walls of a box that face inwards, or outwards.
+inline std::vector<Quad> box(const Vec3& low, const Vec3& high, bool inwards = true) {
+  const Vec3 middle = (low + high) / 2, half = (high - low) / 2;
+  std::vector<Quad> quads = room(1);
+  for (Quad& quad : quads) {
+    for (Vec3& corner : quad) corner = middle + corner * half;
+    if (!inwards) std::swap(quad[1], quad[3]);
+  }
+  return quads;
 }
 
 inline LightInfo light(const std::string& type, double energy, std::map<std::string, double> sizes) {

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "base/text_table.h"
 #include "blender/blender_session.h"
+#include "pipeline/probes/reference_light.h"
 #include "probes/fill_probes.h"
 #include "process/stop.h"
 #include "sampling/sampler.h"
@@ -31,12 +32,12 @@ double probes_of_boxes(const std::vector<ProbeVolume>& volumes) {
   return sum;
 }
 
-/// Each box gets as many places as it has probes' share, between its outermost probes; those that see backs
-/// of faces are left out.
+/// Places in each box by its share of the probes, between the outermost ones; those that see backs of faces
+/// are left out.
 std::vector<Place> random_places(const TraceScene& scene, const std::vector<ProbeVolume>& volumes,
                                  std::size_t count, std::uint64_t seed) {
   std::vector<Place> places;
-  std::vector<Vec3> relative;
+  std::vector<Vec3d> points;
   const double all = probes_of_boxes(volumes);
   for (std::size_t v = 0; v < volumes.size(); ++v) {
     if (!volumes[v].grid) continue;
@@ -49,12 +50,13 @@ std::vector<Place> random_places(const TraceScene& scene, const std::vector<Prob
       for (int axis = 0; axis < 3; ++axis)
         at += grid.steps[std::size_t(axis)] * (double(u[axis]) * (grid.counts[std::size_t(axis)] - 1));
       places.push_back({v, at});
-      relative.emplace_back(at - scene.origin());
+      points.push_back(at);
     }
   }
   SurroundingsOptions looking;
   looking.side = 8;
-  const auto around = look_around(scene, relative, looking, [] { return StopRequest::requested(); });
+  const auto around =
+      look_around(scene, scene.relative(points), looking, [] { return StopRequest::requested(); });
   std::vector<Place> open;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (1 - around[i].back_faces >= double(least_validity)) open.push_back(places[i]);
@@ -64,15 +66,9 @@ std::vector<Place> random_places(const TraceScene& scene, const std::vector<Prob
 std::vector<GatheredProbe> gathered(const TraceScene& scene, const std::vector<Vec3d>& at,
                                     const ProbeGatherOptions& options, Progress& progress, double from,
                                     double to) {
-  std::vector<Vec3> relative;
-  relative.reserve(at.size());
-  for (const Vec3d& place : at) relative.emplace_back(place - scene.origin());
-  auto found = gather_probes(
-      scene, relative, options,
-      [&](double share) { progress.update(from + (to - from) * share, "places between probes"); },
-      [] { return StopRequest::requested(); });
-  if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
-  return found;
+  return gather_at(scene, at, options, [&](double share) {
+    progress.update(from + (to - from) * share, "places between probes");
+  });
 }
 
 /// Truth at places, in two halves whose noise is independent.
@@ -105,14 +101,6 @@ ProbeErrorRow errors_of(const std::vector<Vec3>& looked_up, const Truth& truth) 
   std::ranges::nth_element(of_places, rank);
   row.p95 = *rank;
   return row;
-}
-
-std::vector<LeakTest> tests_for(const std::vector<ProbeVolume>& volumes) {
-  std::vector<LeakTest> tests{LeakTest::none, LeakTest::validity};
-  const bool have_distances = std::ranges::all_of(
-      volumes, [](const ProbeVolume& volume) { return !volume.grid || volume.depths.side > 0; });
-  if (have_distances) tests.push_back(LeakTest::visibility);
-  return tests;
 }
 
 std::vector<Vec3> look_up(const std::vector<ProbeVolume>& volumes, const std::vector<Place>& places,
@@ -170,7 +158,7 @@ ProbeCheck check_between(const TraceScene& scene, const std::vector<ProbeVolume>
   truth.second = gathered(scene, at, half, progress, 0.5, 1);
   check.places = open.size();
   check.mean = mean_of(truth);
-  for (const LeakTest test : tests_for(volumes)) {
+  for (const LeakTest test : leak_tests_for(volumes)) {
     for (std::size_t e = 0; e < probe_encoding_names.size(); ++e) {
       const auto encoding = static_cast<ProbeEncoding>(e);
       ProbeErrorRow row = errors_of(look_up(volumes, open, encoding, test), truth);

@@ -6,13 +6,12 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "pipeline/probes/bake_probes.h"
+#include "pipeline/probes/reference_light.h"
 #include "probes/fill_probes.h"
 #include "probes/probe_tree.h"
 #include "probes/regular_volume.h"
-#include "process/stop.h"
 #include "sampling/sampler.h"
 #include "scene/lighting.h"
-#include "trace/probes/gather_probes.h"
 
 #include <algorithm>
 #include <span>
@@ -39,8 +38,7 @@ std::vector<LightProbe*> probes_to_light(std::vector<ProbeVolume>& volumes) {
 
 ProbeGatherOptions gather_options(const ObjectSettings& settings, const ReferencePlan& plan,
                                   ProbeLights lights) {
-  ProbeGatherOptions options;
-  options.directions.assign(probe_directions().begin(), probe_directions().end());
+  ProbeGatherOptions options = probe_gathering();
   options.direct = direct_light(lights);
   options.samples = settings.samples;
   options.bounces = plan.bounces;
@@ -49,20 +47,9 @@ ProbeGatherOptions gather_options(const ObjectSettings& settings, const Referenc
   return options;
 }
 
-void light_by_reference(const TraceScene& scene, const ProbeGatherOptions& options,
-                        std::span<LightProbe* const> probes) {
-  std::vector<Vec3> positions;
-  for (const LightProbe* probe : probes) positions.emplace_back(probe->position - scene.origin());
+void trace(const TraceScene& scene, const ProbeGatherOptions& options, std::span<LightProbe* const> probes) {
   Progress progress("tracing", progress_for(log::is_quiet(), log::is_jsonl()));
-  const std::vector<GatheredProbe> gathered = gather_probes(
-      scene, positions, options, [&](double share) { progress.update(share, "probes"); },
-      [] { return StopRequest::requested(); });
-  if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    std::ranges::copy(gathered[i].irradiance, probes[i]->irradiance.begin());
-    std::ranges::copy(gathered[i].standard_error, probes[i]->standard_error.begin());
-    probes[i]->harmonics = gathered[i].harmonics;
-  }
+  light_by_reference(scene, probes, options, [&](double share) { progress.update(share, "probes"); });
 }
 
 /// Keys of the objects that move.
@@ -123,7 +110,7 @@ void refine(const TraceScene& scene, const ProbesOptions& options, const ProbeGa
     const LightProbes light = [&](std::span<LightProbe* const> probes, std::uint64_t round) {
       ProbeGatherOptions fresh = gathering;
       fresh.seed = hash_of(hash_of(gathering.seed, 3), round);
-      light_by_reference(scene, fresh, probes);
+      trace(scene, fresh, probes);
     };
     const std::size_t before = volume.probes.size();
     const RefineCounts counts = refine_probes(scene, options.settle, options.refine, light, volume);
@@ -187,7 +174,7 @@ ProbesResult run_probes(BlenderSession& session, const ExportResult& exported, c
   if (!by_blender || refined) {
     const std::vector<LightProbe*> probes = probes_to_light(result.volumes);
     log::info("lighting {} in {}", counted(probes.size(), "probe"), counted(result.volumes.size(), "volume"));
-    light_by_reference(scene, gathering, probes);
+    trace(scene, gathering, probes);
   }
   if (refined) refine(scene, options, gathering, result.volumes);
   if (by_blender) light_by_blender(session, exported, options, dynamic, probes_to_light(result.volumes));

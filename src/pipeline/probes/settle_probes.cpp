@@ -26,20 +26,22 @@ Vec3d way_out(const Vec3d& from, const Surroundings& around, double most) {
 
 std::vector<Surroundings> look(const TraceScene& scene, const std::vector<Vec3d>& places,
                                const SurroundingsOptions& options) {
-  std::vector<Vec3> relative;
-  relative.reserve(places.size());
-  for (const Vec3d& place : places) relative.emplace_back(place - scene.origin());
-  auto found = look_around(scene, relative, options, [] { return StopRequest::requested(); });
+  auto found = look_around(scene, scene.relative(places), options, [] { return StopRequest::requested(); });
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
   return found;
 }
 
-void settle_all(const TraceScene& scene, const SettleOptions& options, double most, double reach,
-                std::span<LightProbe> probes, SettleCounts& counts, std::vector<Surroundings>& around) {
+SurroundingsOptions looking_for(const SettleOptions& options, double reach) {
   SurroundingsOptions looking;
   looking.side = depth_side;
   looking.threads = options.threads;
   looking.reach = reach;
+  return looking;
+}
+
+void settle_all(const TraceScene& scene, const SettleOptions& options, double most, double reach,
+                std::span<LightProbe> probes, SettleCounts& counts, std::vector<Surroundings>& around) {
+  const SurroundingsOptions looking = looking_for(options, reach);
   std::vector<Vec3d> places;
   for (const LightProbe& probe : probes) places.push_back(probe.position);
   around = look(scene, places, looking);
@@ -104,10 +106,7 @@ SettleCounts settle_probes(const TraceScene& scene, const SettleOptions& options
 
 void look_again(const TraceScene& scene, const SettleOptions& options,
                 const std::vector<std::size_t>& numbers, double reach, ProbeVolume& volume) {
-  SurroundingsOptions looking;
-  looking.side = depth_side;
-  looking.threads = options.threads;
-  looking.reach = reach;
+  const SurroundingsOptions looking = looking_for(options, reach);
   std::vector<Vec3d> places;
   for (const std::size_t number : numbers) places.push_back(volume.probes[number].position);
   const std::vector<Surroundings> around = look(scene, places, looking);

@@ -5,15 +5,12 @@
 #include "trace/gbuffer.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rnmbake {
 namespace {
-
-constexpr std::array<std::size_t, 5> colours_of{6, 6, 4, 4, 9};  // of each ProbeEncoding
 
 /// 1 where a pixel and all its neighbours have it: a pixel on an object's edge shows what is behind, too.
 FloatImage without_edges(const FloatImage& mask) {
@@ -55,18 +52,16 @@ ViewComparison compare_probes_view(const TraceScene& scene, const SurfaceLights&
   if (std::ranges::none_of(truth.coverage.data(), [](float lit) { return lit > 0; }))
     fail(ExitCode::invalid_input,
          "the camera sees nothing that the probes light, or less than 3 x 3 pixels of it; move it, pass "
-         "--camera "
-         "fit or --dynamic, or raise --resolution");
+         "--camera fit or --dynamic, or raise --resolution");
   ViewComparison view;
   view.name = camera_of(scene.diffuse_scene()).name;
   view.pictures.push_back({"truth", truth.halves.mean()});
-  std::vector<LeakTest> tests{LeakTest::none, LeakTest::validity};
-  if (lights.probes->best_test() == LeakTest::visibility) tests.push_back(LeakTest::visibility);
+  const std::vector<LeakTest> tests = leak_tests_for(lights.probes->volumes());
   const auto add = [&](const ProbeLookup& lookup) {
     view.pictures.push_back(compared(
         label_of(lookup), looked_up(scene, lights, {Lighting::Kind::probes, {}, lookup}, options), truth));
     view.pictures.back().by_probes = true;
-    view.pictures.back().bytes = static_cast<int>(6 * colours_of[std::size_t(lookup.encoding)]);
+    view.pictures.back().bytes = static_cast<int>(6 * coefficients_of(lookup.encoding));
   };
   for (std::size_t i = 0; i < probe_encoding_names.size(); ++i)
     add({static_cast<ProbeEncoding>(i), tests.back()});

@@ -39,12 +39,6 @@ SceneProbes::SceneProbes(const std::filesystem::path& path, const DiffuseScene& 
   if (patterns.empty()) std::ranges::fill(lit_, 1);
 }
 
-LeakTest SceneProbes::best_test() const {
-  const bool have_distances =
-      std::ranges::all_of(volumes_, [](const ProbeVolume& volume) { return volume.depths.side > 0; });
-  return have_distances ? LeakTest::visibility : LeakTest::validity;
-}
-
 void SceneProbes::show_spheres(DiffuseScene& scene) {
   first_sphere_ = scene.survey.objects.size();
   add_probe_spheres(volumes_, scene);

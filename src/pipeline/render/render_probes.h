@@ -40,8 +40,6 @@ class SceneProbes {
   [[nodiscard]] const std::vector<ProbeVolume>& volumes() const { return volumes_; }
   /// Light that they hold; what is missing are the engine's own lights.
   [[nodiscard]] ProbeLights held() const { return held_; }
-  /// Visibility where all volumes hold distances.
-  [[nodiscard]] LeakTest best_test() const;
 
  private:
   std::vector<ProbeVolume> volumes_;  // boxes alone

@@ -14,17 +14,6 @@
 namespace rnmbake {
 namespace {
 
-/// Walls of a box that face inwards; outwards where it is turned round.
-std::vector<Quad> box(const Vec3& low, const Vec3& high, bool inwards = true) {
-  const Vec3 middle = (low + high) / 2, half = (high - low) / 2;
-  std::vector<Quad> quads = room(1);
-  for (Quad& quad : quads) {
-    for (Vec3& corner : quad) corner = middle + corner * half;
-    if (!inwards) std::swap(quad[1], quad[3]);
-  }
-  return quads;
-}
-
 /// Probes over both rooms, as the command makes them; with a wanted error as a tree.
 ProbeVolume lit_volume(const DiffuseScene& scene, const ProbeBounds& bounds, double spacing,
                        const RefineOptions& refine = {}) {

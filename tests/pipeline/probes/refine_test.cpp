@@ -48,17 +48,15 @@ Refined refined(const TraceScene& scene, double spacing, int samples, const Refi
 /// truth is left out by two of its halves.
 double rmse_between(const TraceScene& scene, const ProbeVolume& volume) {
   std::vector<Vec3d> places;
-  std::vector<Vec3> relative;
   for (std::uint32_t i = 0; i < 300; ++i) {
     Sampler sampler(7, i);
     places.push_back((Vec3d(sampler.next3()) * 2 - Vec3d(1)) * 1.7);  // within the probes of all grids
-    relative.emplace_back(places.back() - scene.origin());
   }
   ProbeGatherOptions options = gathering(256);
   options.seed = 7;
-  const auto first = gather_probes(scene, relative, options);
+  const auto first = gather_at(scene, places, options);
   options.seed = 8;
-  const auto second = gather_probes(scene, relative, options);
+  const auto second = gather_at(scene, places, options);
   const VolumeSampler sampler(volume, ProbeEncoding::sh3, LeakTest::visibility);
   double product = 0, mean = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
