@@ -14,7 +14,7 @@ import sys
 FLOORS = {
     "base": 0,
     "sampling": 1, "encoding": 1, "shaders": 1, "image": 1, "scene": 1, "config": 1, "process": 1, "rays": 1,
-    "texture": 2, "blender": 2, "bake": 2, "unwrap": 2, "lightmap": 2, "probes": 2, "trace": 2, "report": 2,
+    "texture": 2, "jobs": 2, "blender": 2, "bake": 2, "unwrap": 2, "lightmap": 2, "probes": 2, "trace": 2, "report": 2,
     "ssbump": 3,
     "pipeline": 4,
     "cli": 5,
