@@ -50,14 +50,14 @@ int create_beside(const fs::path& target, fs::path& temporary) {
   fail_writing(target, errno);
 }
 
+}  // namespace
+
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);  // some file systems cannot; the data itself is already safe
   ::close(descriptor);
 }
-
-}  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
   if (fs::is_directory(target_)) fail(ExitCode::io, "cannot write {}: it is a folder", target_.string());

@@ -53,6 +53,9 @@ std::string read_tail(const std::filesystem::path& path, std::size_t bytes);
 /// Creates the folder and those above it. Error(io) names the first that cannot be.
 void make_folders(const std::filesystem::path& folder);
 
+/// fsync of a folder, so that names made in it outlast a crash; does nothing where the file system cannot.
+void sync_folder(const std::filesystem::path& folder);
+
 /// A folder that only this user can enter (mode 0700), gone with everything in it at the end of its scope.
 class TempFolder {
  public:

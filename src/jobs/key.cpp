@@ -2,7 +2,9 @@
 
 #include "base/hash.h"
 
+#include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -25,7 +27,14 @@ KeyMaker& KeyMaker::add(std::string_view name, const ResultKey& other) {
   return add(name, std::string_view(other.kind + "/" + other.digits));
 }
 
+bool is_result_kind(std::string_view kind) {
+  const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
+  return !kind.empty() && kind.size() <= 16 && kind.front() != '-' &&
+         std::all_of(kind.begin(), kind.end(), fits);
+}
+
 ResultKey KeyMaker::make(std::string_view kind) const {
+  if (!is_result_kind(kind)) throw std::invalid_argument("no kind of result: " + std::string(kind));
   return {std::string(kind), hash128_hex(text_)};
 }
 

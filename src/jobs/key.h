@@ -8,12 +8,15 @@
 
 namespace rnmbake {
 
-/// Name of a result: its kind ("survey", "pass"; letters and dashes, at most 16) and 128 bits of hash over
+/// Name of a result: its kind ("survey", "pass") and 128 bits of hash over
 /// everything that it depends on, as 32 hexadecimal digits.
 struct ResultKey {
   std::string kind, digits;
   auto operator<=>(const ResultKey&) const = default;
 };
+
+/// Whether it may be a ResultKey's kind: at most 16 of a to z and dashes, the first one no dash.
+[[nodiscard]] bool is_result_kind(std::string_view kind);
 
 /// Collects what a result depends on: names with values, in the order in which they are added. Never paths of
 /// this machine, command lines, or times.
@@ -25,6 +28,7 @@ class KeyMaker {
   KeyMaker& add(std::string_view name, double value);
   KeyMaker& add(std::string_view name, const ResultKey& other);
 
+  /// Throws std::invalid_argument where it is no kind.
   [[nodiscard]] ResultKey make(std::string_view kind) const;
 
  private:
