@@ -9,7 +9,7 @@ from importing.import_scene import import_scene  # noqa: E402
 
 
 def main(task):
-    return {"blend": import_scene(task)}
+    return import_scene(task)
 
 
 run(main)

@@ -13,6 +13,7 @@ import bpy  # noqa: E402
 
 from core.task import run  # noqa: E402
 from lambert import albedo, collect, flat_scene, notes  # noqa: E402
+from opening.inputs import scene_inputs  # noqa: E402
 from opening.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
 from scene_ops import displacement  # noqa: E402
 from scene_ops.saving import save_copy  # noqa: E402
@@ -23,6 +24,7 @@ FILE = "lambert.blend"
 def main(task):
     warnings = open_to_measure(task)
     warnings = scene_warnings() + warnings
+    inputs = scene_inputs()
     notes.remember_camera(bpy.context.scene)
     notes.remember_probe_places(bpy.context.scene)
     warnings += displacement.settle()
@@ -35,7 +37,7 @@ def main(task):
     bpy.context.scene[notes.OUTSIDE] = json.dumps(shown.outside)
     # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
     save_copy(task.path(FILE), relative_remap=True, check_existing=False)
-    return {"blend": FILE, "warnings": warnings}
+    return {"blend": FILE, "warnings": warnings, "inputs": inputs}
 
 
 run(main)

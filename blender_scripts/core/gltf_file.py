@@ -55,6 +55,13 @@ class Gltf:
             raise BrokenGltf(f"its buffer is missing: {path}; put the file beside the scene")
         return path, 0, os.path.getsize(path)
 
+    def files(self):
+        """(kind, path) of the buffers and pictures that lie in files of their own."""
+        for kind, name in (("buffer", "buffers"), ("picture", "images")):
+            for item in self.items(name):
+                if item.get("uri") and not item["uri"].startswith("data:"):
+                    yield kind, self.resolve(item["uri"], kind)
+
     def resolve(self, uri, what):
         """The path of a file that the glTF refers to."""
         if "://" in uri:

@@ -11,12 +11,13 @@ from core.gltf_open import open_gltf
 from core.task import ENVIRONMENT, Refusal
 from importing import gltf_lamps, gltf_materials
 from importing.importers import run_importer
+from opening.inputs import entry
 
 PREPARED = "prepared.gltf"
 
 
 def import_gltf(task):
-    """Returns what the user should be warned of."""
+    """Returns what the user should be warned of, and the files that the glTF names."""
     path = task.request["scene"]
     mend_numpy()
     if not hasattr(bpy.types, "IMPORT_SCENE_OT_gltf"):
@@ -26,11 +27,12 @@ def import_gltf(task):
         gltf, notes = open_gltf(path, importer_knows)
     except BrokenGltf as error:
         raise Refusal(f"{path}: {error}", error.code) from error
+    files = [entry(kind, file) for kind, file in gltf.files()]
     with open(task.path(PREPARED), "w", encoding="utf-8") as stream:
         json.dump(gltf.json, stream)
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * DEEPEST))  # it calls itself for every level of nodes
     run_importer("glTF", path, lambda: bpy.ops.import_scene.gltf(filepath=task.path(PREPARED)))
-    return notes + gltf_lamps.put_right(gltf) + gltf_materials.put_right(gltf)
+    return notes + gltf_lamps.put_right(gltf) + gltf_materials.put_right(gltf), files
 
 
 def importer_knows(extension):

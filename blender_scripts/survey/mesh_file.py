@@ -1,4 +1,5 @@
 """Evaluated meshes as raw arrays in one file; all loops over elements are Blender's own (foreach_get)."""
+import hashlib
 from array import array
 
 WIDTH = 4  # bytes of a number: float32 or int32
@@ -9,7 +10,8 @@ class MeshFile:
 
     def __init__(self, path):
         self._stream = open(path, "wb")
-        self._index = {}
+        self._index, self._hashes = {}, []
+        self._hash = hashlib.blake2b()
         self.entries = []
         self.bytes_written = 0
 
@@ -27,7 +29,12 @@ class MeshFile:
             self._append(mesh)
         return self._index[key]
 
+    def hash_of(self, mesh):
+        """Fingerprint of all that add() wrote of the mesh."""
+        return self._hashes[self._index[mesh.as_pointer()]]
+
     def _append(self, mesh):
+        self._hash = hashlib.blake2b(digest_size=16)
         mesh.calc_loop_triangles()
         if not hasattr(mesh, "corner_normals"):  # before 4.1
             mesh.calc_normals_split()  # adds a layer: those taken hold of before it are no longer valid
@@ -48,6 +55,7 @@ class MeshFile:
             "active_uv": mesh.uv_layers.active_index if uv_layers else -1,
             "render_uv": next((i for i, layer in enumerate(uv_layers) if layer.active_render), -1),
         })
+        self._hashes.append(self._hash.hexdigest())
 
     def _write(self, collection, attribute, kind, components=1):
         """Append one attribute of all elements; returns its offset in bytes."""
@@ -60,6 +68,7 @@ class MeshFile:
         """Append an array of numbers; returns its offset in bytes."""
         offset = self.bytes_written
         values.tofile(self._stream)
+        self._hash.update(values)
         self.bytes_written += len(values) * WIDTH
         return offset
 

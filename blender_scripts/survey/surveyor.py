@@ -10,6 +10,7 @@ from scene_ops.describe import describe_light, describe_material, describe_probe
 from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, material_name, shown_surfaces
 from scene_ops.light_linking import Choices
 from scene_ops.render_depsgraph import with_render_depsgraph
+from survey.digest import SceneDigest
 from survey.mesh_file import MeshFile
 
 FORMAT = 1
@@ -69,6 +70,18 @@ class Surveyor:
 
 def slot_names(ob):
     return [material_name(slot.material) for slot in ob.material_slots]
+
+
+class DigestSurveyor(Surveyor):
+    """Takes the digest of the scene as well."""
+
+    def __init__(self, task):
+        super().__init__(task)
+        self.digest = SceneDigest(self.meshes)
+
+    def visit(self, depsgraph):
+        super().visit(depsgraph)
+        self.digest.visit(depsgraph)
 
 
 def survey_scene(task, surveyor=None):

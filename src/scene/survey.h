@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "scene/mesh.h"
+#include "scene/scene_digest.h"
 
 #include <array>
 #include <map>
@@ -64,6 +65,8 @@ struct SceneSurvey {
   double world_strength = 0;
   std::array<double, 3> world_color{1, 1, 1};
   std::vector<std::string> warnings;  // what the user should know of the scene, one line each
+  SceneDigest digest;                 // of all that Cycles could see; empty in a scene file for the tracer
+  std::vector<InputFile> inputs;      // every file that was read, the scene itself first
 
   [[nodiscard]] const Mesh& mesh_of(const SceneObject& object) const {
     return meshes[static_cast<std::size_t>(object.mesh)];

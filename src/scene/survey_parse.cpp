@@ -8,6 +8,7 @@
 #include "scene/survey_meshes.h"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -74,6 +75,19 @@ void read_world(const json& entry, SceneSurvey& survey) {
   survey.world_color = entry.at("color").get<std::array<double, 3>>();
 }
 
+/// Sorts the parts by name, as differences() wants them.
+SceneDigest read_digest(const json& list) {
+  std::map<std::string, std::string> parts;
+  for (const json& entry : list) {
+    const auto& what = entry.at("what").get_ref<const std::string&>();
+    if (!parts.emplace(what, entry.at("hash").get<std::string>()).second)
+      fail(ExitCode::invalid_input, "{}: twice in the digest of the scene", what);
+  }
+  SceneDigest digest;
+  for (const auto& [what, hash] : parts) digest.entries.push_back({what, hash});
+  return digest;
+}
+
 void read_objects(const json& content, SceneSurvey& survey) {
   std::set<std::string> keys;
   for (const json& entry : content.at("objects")) {
@@ -126,6 +140,15 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
   return matrix;
 }
 
+std::vector<InputFile> read_inputs(const json& list) {
+  std::vector<InputFile> files;
+  for (const json& entry : list) {
+    files.push_back({entry.at("kind").get<std::string>(), entry.at("path").get<std::string>(),
+                     entry.at("there").get<bool>()});
+  }
+  return files;
+}
+
 SceneSurvey parse_survey(const json& content, Blob& data) {
   if (content.at("format") != survey_format || content.at("byte_order") != "little") {
     fail(ExitCode::unsupported, "written by scripts of another rnmbake (format {}, {} endian)",
@@ -146,6 +169,8 @@ SceneSurvey parse_survey(const json& content, Blob& data) {
   for (const json& entry : content.value("probe_places", json::array()))  // files of older versions have none
     survey.probe_places.push_back(read_probe_place(entry));
   read_world(content.at("world"), survey);
+  survey.digest = read_digest(content.value("digest", json::array()));  // scenes for the tracer have neither
+  survey.inputs = read_inputs(content.value("inputs", json::array()));
   survey.warnings = content.at("warnings").get<std::vector<std::string>>();
   return survey;
 }

@@ -11,6 +11,9 @@ namespace rnmbake {
 /// Checks as read_survey() does, the format's number included. Throws nlohmann's exceptions, too.
 [[nodiscard]] SceneSurvey parse_survey(const nlohmann::json& content, Blob& data);
 
+/// The files of a launch's answer or a survey: [{"kind", "path", "there"}].
+[[nodiscard]] std::vector<InputFile> read_inputs(const nlohmann::json& list);
+
 /// The binary part that `content` names; beside it, and nowhere else.
 [[nodiscard]] std::filesystem::path data_file(const nlohmann::json& content,
                                               const std::filesystem::path& folder);

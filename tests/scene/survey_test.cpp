@@ -108,6 +108,19 @@ class Folder {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
+TEST(SceneSurvey, HoldsTheDigestSortedAndTheInputs) {
+  Folder folder;
+  EXPECT_TRUE(folder.read().digest.empty());  // a scene for the tracer
+  folder.content["digest"] = {{{"what", "object 'Wall'"}, {"hash", "2"}},
+                              {{"what", "mesh 'Wall'"}, {"hash", "1"}}};
+  folder.content["inputs"] = {{{"kind", "picture"}, {"path", "/wall.png"}, {"there", false}}};
+  const SceneSurvey survey = folder.read();
+  EXPECT_EQ(survey.digest.entries, (std::vector<DigestEntry>{{"mesh 'Wall'", "1"}, {"object 'Wall'", "2"}}));
+  EXPECT_EQ(survey.inputs, (std::vector<InputFile>{{"picture", "/wall.png", false}}));
+  folder.content["digest"].push_back({{"what", "mesh 'Wall'"}, {"hash", "3"}});
+  EXPECT_EQ(folder.refusal(ExitCode::invalid_input), "mesh 'Wall': twice in the digest of the scene");
+}
+
 TEST(SceneSurvey, HoldsWhatWasWritten) {
   const SceneSurvey survey = Folder().read();
   EXPECT_EQ(survey.scene_file, "a.blend");

@@ -65,14 +65,17 @@ ExportResult export_surfaces(BlenderSession& session) {
   std::vector<std::string> logged;
   if (is_rnmscene(file)) {
     result.diffuse_scene = read_diffuse_scene(file);
+    put_inputs_first(result.diffuse_scene.survey, {{"scene", fs::absolute(file).lexically_normal(), true}});
   } else {
-    const BlendPath own = import_scene(session, file);
-    LambertScene lambert = make_lambert_scene(session, own);
+    ImportedScene own = import_scene(session, file);
+    LambertScene lambert = make_lambert_scene(session, own.blend);
     logged = std::move(lambert.warnings);
-    result.blends = SceneBlends{lambert.blend, own};
+    result.blends = SceneBlends{lambert.blend, own.blend};
     log::info("writing down the scene for the tracer");
     result.diffuse_scene = launch_export(session, lambert.blend);
     result.diffuse_scene.survey.scene_file = file.string();
+    add_inputs(own.inputs, lambert.inputs);
+    put_inputs_first(result.diffuse_scene.survey, std::move(own.inputs));
   }
   log_warnings(result.diffuse_scene.survey, logged);
   if (result.diffuse_scene.survey.objects.empty()) {

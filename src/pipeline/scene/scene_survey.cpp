@@ -8,6 +8,7 @@
 #include "scene/survey_parse.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rnmbake {
 
@@ -44,14 +45,17 @@ Launch launch_on(BlenderSession& session, const char* entry, const char* purpose
   return launch;
 }
 
-BlendPath import_scene(BlenderSession& session, const fs::path& file) {
-  if (is_blend(file)) return BlendPath(file);
+ImportedScene import_scene(BlenderSession& session, const fs::path& file) {
+  const InputFile scene{"scene", fs::absolute(file).lexically_normal(), true};
+  if (is_blend(file)) return {BlendPath(file), {scene}};
   Launch launch;
   launch.entry = "import_entry.py";
   launch.request = scene_request(session, file);
   launch.folder = session.new_folder("import");
   const nlohmann::json answer = session.run(launch);
-  return BlendPath(answered_file(answer, "blend", launch.folder));
+  ImportedScene imported{BlendPath(answered_file(answer, "blend", launch.folder)), {scene}};
+  add_inputs(imported.inputs, read_inputs(answer.at("inputs")));
+  return imported;
 }
 
 LambertScene make_lambert_scene(BlenderSession& session, const BlendPath& own) {
@@ -60,9 +64,15 @@ LambertScene make_lambert_scene(BlenderSession& session, const BlendPath& own) {
   const nlohmann::json answer = session.run(launch);
   warn_of_newer(session, own);
   LambertScene result{BlendPath(answered_file(answer, "blend", launch.folder)),
-                      answer.at("warnings").get<std::vector<std::string>>()};
+                      answer.at("warnings").get<std::vector<std::string>>(),
+                      read_inputs(answer.at("inputs"))};
   warn_of_objects(result.warnings);
   return result;
+}
+
+void put_inputs_first(SceneSurvey& survey, std::vector<InputFile> inputs) {
+  add_inputs(inputs, survey.inputs);
+  survey.inputs = std::move(inputs);
 }
 
 void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged) {
@@ -77,21 +87,26 @@ void log_warnings(SceneSurvey& survey, const std::vector<std::string>& logged) {
 }
 
 SceneSurvey survey_file(BlenderSession& session, const fs::path& file) {
-  return survey_blend(session, import_scene(session, file));
+  const ImportedScene imported = import_scene(session, file);
+  SceneSurvey survey = survey_blend(session, imported.blend);
+  put_inputs_first(survey, imported.inputs);
+  return survey;
 }
 
 SurveyResult survey_scene(BlenderSession& session) {
   const SceneSettings& scene = session.settings().scene;
-  const BlendPath own = import_scene(session, scene.file);
-  SceneBlends blends{own, own};
+  ImportedScene imported = import_scene(session, scene.file);
+  SceneBlends blends{imported.blend, imported.blend};
   std::vector<std::string> logged;
   if (scene.materials == SceneSettings::Materials::lambert) {
-    LambertScene lambert = make_lambert_scene(session, own);
+    LambertScene lambert = make_lambert_scene(session, blends.own);
+    add_inputs(imported.inputs, lambert.inputs);
     blends.shown = lambert.blend;
     logged = std::move(lambert.warnings);
   }
   SurveyResult result{survey_blend(session, blends.shown), blends};
   result.survey.scene_file = scene.file.string();
+  put_inputs_first(result.survey, imported.inputs);
   log_warnings(result.survey, logged);
   if (result.survey.objects.empty()) {
     fail(ExitCode::invalid_input,
