@@ -28,6 +28,7 @@ def feed_mesh(mesh, arrays, feed):
     """`arrays`: fingerprint of what a survey has read of it already (MeshFile)."""
     feed.add("arrays", arrays)
     feed.add("uv", [layer.name for layer in mesh.uv_layers], [layer.active_render for layer in mesh.uv_layers])
+    feed.add_array("smooth", read(mesh.polygons, "use_smooth", "b"))
     feed.add("texture space", tuple(mesh.texspace_location), tuple(mesh.texspace_size))
     colors = getattr(mesh, "color_attributes", None)
     feed.add("color", getattr(colors, "render_color_index", -1))
@@ -80,12 +81,17 @@ def feed_volume(volume, feed):
         feed.add(hash_file(absolute(volume.grids.frame_filepath or volume.filepath, volume)))
 
 
-def feed_hair(system, feed):
-    """Strands of a particle system, as evaluated."""
+def feed_hair(system, ob, feed):
+    """Particles and strands of a system; what they grow on is in the mesh, how they look in the settings."""
     particles = system.particles
     feed.add("particles", len(particles), len(system.child_particles))
     for name, components in (("location", 3), ("rotation", 4), ("size", 1), ("velocity", 3)):
         feed.add_array(name, read(particles, name, "f", components))
-    if system.settings.type == "HAIR":
-        for particle in particles:
-            feed.add_array("keys", read(particle.hair_keys, "co", "f", 3))
+    if system.settings.type != "HAIR":
+        return
+    for particle in particles:
+        feed.add_array("keys", read(particle.hair_keys, "co_local", "f", 3))
+    if system.use_hair_dynamics:
+        steps = range(2 ** system.settings.render_step + 1)
+        for number in range(len(particles)):
+            feed.add([tuple(system.co_hair(object=ob, particle_no=number, step=step)) for step in steps])

@@ -32,7 +32,7 @@ class SceneDigest:
         instances = {}
         for instance in depsgraph.object_instances:
             if instance.object.type in SHOWN and (instance.show_self or instance.show_particles):
-                self._add_instance(instance, instances)
+                self._add_instance(instance, instances, depsgraph)
         for what, placed in instances.items():
             feed = Feed()
             for line in sorted(placed):
@@ -56,14 +56,15 @@ class SceneDigest:
     def _put(self, what, feed):
         self._found.setdefault(what, []).append(feed.hexdigest())
 
-    def _add_instance(self, instance, instances):
+    def _add_instance(self, instance, instances, depsgraph):
+        """An instance's object is Blender's only until the next one is asked for; what it was made from stays."""
         ob = instance.object
         if instancer := instancer_of(instance):
             values = [repr(name_of(ob)), instance.persistent_id[0], instance.random_id, *numbers(instance.matrix_world),
                       *instance.orco, *instance.uv, instance.show_self, instance.show_particles]
             instances.setdefault(f"instances of '{instancer}'", []).append(" ".join(map(str, values)))
-            self._refer(instance.parent)
-        self._refer(ob)
+            self._refer(instance.parent.original.evaluated_get(depsgraph))
+        self._refer(ob.original.evaluated_get(depsgraph))
         if isinstance(ob.data, bpy.types.Mesh) and instance.show_self:
             self._add_mesh(ob)
 
@@ -107,7 +108,7 @@ class SceneDigest:
         feed.add(ob.type, numbers(ob.matrix_world))
         placing, layer = ob.original, bpy.context.view_layer
         feed.add(placing.holdout_get(view_layer=layer), placing.indirect_only_get(view_layer=layer))
-        for slot in ob.material_slots:
+        for slot in ob.material_slots if ob.data else ():  # Blender 3.4 crashes over those of an empty
             feed.add("slot", slot.material and self._refer(slot.material))
         linking = getattr(placing, "light_linking", None)
         for role in ("receiver_collection", "blocker_collection"):
@@ -119,7 +120,7 @@ class SceneDigest:
         for system in ob.particle_systems:
             feed.add("particle system", self._refer(system.settings))
             self._walker.walk(system, feed, ob)
-            content.feed_hair(system, feed)
+            content.feed_hair(system, ob, feed)
 
     def _feed_modifiers(self, ob, feed):
         for modifier in ob.modifiers:
