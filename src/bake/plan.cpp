@@ -1,5 +1,7 @@
 #include "bake/plan.h"
 
+#include "bake/texel_centres.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -51,6 +53,8 @@ void add_receiver_tasks(Plan& plan, PlanTarget target, ReceiverPasses passes,
     BakeTask& task = pass.role == ReceiverPass::Role::moment ? horizon : plan.tasks[first + pass.basis];
     task.rects.push_back(plan.rects.size());
     plan.rects.push_back(crop(index, target.map, std::move(pass)));
+    // After the crop, so that the layout, and with it the noise, is the whole surface's.
+    drop_between_centres(plan.rects.back().pass.corners, target.map);
   }
   if (!horizon.rects.empty()) plan.tasks.push_back(std::move(horizon));
   plan.targets.push_back(std::move(target));

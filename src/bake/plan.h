@@ -76,8 +76,8 @@ struct Plan {
 /// Names of the tasks of each basis: "basis flat", ...
 [[nodiscard]] std::vector<std::string> task_names(const std::vector<BasisDirection>& bases);
 
-/// Adds a target and, cropped, its passes as tasks, one for each of `names`. Passes without a texel are left
-/// out.
+/// Adds a target and, cropped, its passes as tasks, one for each of `names`. Passes without a triangle are
+/// left out, and so are triangles between the centres of texels (bake/texel_centres.h).
 void add_receiver_tasks(Plan& plan, PlanTarget target, ReceiverPasses passes,
                         const std::vector<std::string>& names, const CyclesSettings& cycles);
 

@@ -127,6 +127,7 @@ json write_atlas(const Plan& plan, const BatchLayout& layout, std::size_t atlas,
       const AtlasRect& rect = plan.rects[layout.rects[i]];
       joined.add(rect, plan.targets[rect.target].map, layout.atlas.placements[i]);
     }
+    if (joined.count() == 0) continue;  // all its triangles lie between the centres of texels
     joined.write(out, size);
     groups.push_back({{"corners", joined.count()}, {"light_group", group}});
   }
