@@ -78,6 +78,26 @@ TEST(Units, AreOneForEachBasisAndOneForTheHorizon) {
   for (const AtlasRect& rect : plan.rects) EXPECT_EQ(rect.target, 7U);
 }
 
+TEST(Units, KeepTheirRectangleWhereNoTriangleHoldsATexelsCentre) {
+  const RectSize map{8, 8};
+  const auto low = float(1.7 / 8), high = float(2.3 / 8);
+  ReceiverPasses between = plain_sheets(2, low, high), both = plain_sheets(2, low, high);
+  for (ReceiverPass& pass : both.passes) {
+    const auto more = sheet_over(0, 1).corners;
+    pass.corners.insert(pass.corners.end(), more.begin(), more.end());
+  }
+  Plan plan;
+  add_receiver_tasks(plan, {"between", map, ""}, std::move(between), {"flat", "rnm0"}, {});
+  add_receiver_tasks(plan, {"both", map, ""}, std::move(both), {"flat", "rnm0"}, {});
+  ASSERT_EQ(plan.rects.size(), 4U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(plan.rects[i].pass.corners.empty());
+    EXPECT_GE(plan.rects[i].size.width, 3);
+    EXPECT_EQ(plan.rects[2 + i].pass.corners.size(), 3U);
+    EXPECT_EQ(plan.rects[2 + i].size.width, 8);
+  }
+}
+
 TEST(Units, LeaveEmptySheetsOut) {
   ReceiverPasses passes = plain_sheets(2);
   passes.passes[1].corners.clear();

@@ -73,6 +73,18 @@ TEST_F(Requests, OfReceiversDescribeTheirArrays) {
   EXPECT_EQ(read_floats(folder_.path() / atlas.at("arrays")).size(), 36U * (3 + 3 + 2));
 }
 
+TEST_F(Requests, OfReceiversLeaveOutGroupsWithoutATriangle) {
+  add_all();
+  for (AtlasRect& rect : plan_.rects) {
+    if (plan_.targets[rect.target].light_group == "lamps") rect.pass.corners.clear();
+  }
+  const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
+  const auto& groups = request.json.at("atlases").at(0).at("groups");
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0].at("light_group"), "");
+  EXPECT_EQ(request.layout.rects.size(), 12U);
+}
+
 TEST_F(Requests, OfReceiversPlaceUvsOnTheirTiles) {
   add_all();
   const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
