@@ -10,6 +10,7 @@ import sys
 import traceback
 
 # base/error.h, ExitCode
+USAGE = 1
 IO = 2
 INVALID_INPUT = 3
 ENVIRONMENT = 4

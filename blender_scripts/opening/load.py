@@ -7,6 +7,7 @@ import bpy
 from core.task import INVALID_INPUT, Refusal
 from opening import untrusted
 from opening.caches import missing_caches
+from opening.choose import choose
 from opening.pictures import picture_faults
 from scene_ops.keys import CAMERA_PROPERTY
 from scene_ops.neutral import neutralise
@@ -16,9 +17,10 @@ NOTES_PROPERTY = "rnmbake notes"
 
 
 def open_scene(task):
-    """Check the open scene, request["scene"]."""
+    """Check the open scene, request["scene"], after going to what of it is to be baked."""
     if not bpy.data.filepath:
         raise Refusal(f"{task.request['scene']}: Blender did not open it; is it damaged, or saved by a newer Blender?")
+    choose(task)
     refuse_devices()
     refuse_missing_libraries()
     refuse_blocked_scripts(task)

@@ -33,7 +33,8 @@ namespace {
 constexpr std::array probes_settings{
     "samples",         "seed",          "clamp",       "bounces",      "device",         "materials",
     "allow_dark",      "allow_scripts", "atlas_limit", "memory_limit", "blender",        "scripts",
-    "blender_version", "threads",       "timeout",     "retries",      "launch_timeout", "keep_temporary"};
+    "blender_version", "threads",       "timeout",     "retries",      "launch_timeout", "keep_temporary",
+    "scene",           "view_layer",    "frame"};
 
 std::string format_names() {
   std::string names;

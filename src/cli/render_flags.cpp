@@ -18,9 +18,9 @@ namespace {
 constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one that is a picture still
 
 /// Settings that matter for a view.
-constexpr std::array view_settings{"bounces",         "seed",           "device",        "allow_scripts",
-                                   "blender_version", "blender",        "scripts",       "threads",
-                                   "timeout",         "launch_timeout", "keep_temporary"};
+constexpr std::array view_settings{
+    "bounces", "seed",    "device",         "allow_scripts",  "blender_version", "blender",    "scripts",
+    "threads", "timeout", "launch_timeout", "keep_temporary", "scene",           "view_layer", "frame"};
 
 template <std::size_t N>
 std::vector<std::string> names(const std::array<std::string_view, N>& list) {

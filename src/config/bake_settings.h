@@ -36,7 +36,9 @@ struct ObjectSettings {
 struct SceneSettings {
   enum class Materials { full, lambert };
 
-  std::filesystem::path file;  // .blend, .glb, .gltf; "" when only a project's settings were asked for
+  std::filesystem::path file;     // .blend, .glb, .gltf; "" when only a project's settings were asked for
+  std::string scene, view_layer;  // names in the file; "": those that the file was saved with
+  int frame = -1;                 // -1: the one that the file was saved at
   std::vector<std::string> objects{"*"};
   std::vector<std::string> exclude;
   bool allow_scripts = false;

@@ -183,6 +183,11 @@ std::vector<Setting> make_settings_table() {
   using Run = RunSettings;
   return {
       scene("file", &Scene::file, "scene to bake: .blend, .glb or .gltf"),
+      scene("scene", &Scene::scene, "scene of the file to bake").empty_means("the one it was saved with"),
+      scene("view_layer", &Scene::view_layer, "view layer of the scene to bake")
+          .empty_means("the one it was saved with"),
+      scene("frame", &Scene::frame, "frame to bake; -1 is the one that the file was saved at")
+          .range(-1, 1'048'574),
       scene("objects", &Scene::objects, "names of the objects to bake; * and ? are wildcards"),
       scene("exclude", &Scene::exclude, "names of objects to leave out; they still cast light and shadow"),
       scene("allow_scripts", &Scene::allow_scripts, "let Python scripts and drivers in the scene file run"),

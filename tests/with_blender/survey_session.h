@@ -46,10 +46,14 @@ class SurveySession {
   /// What is no .blend is imported first.
   LaunchOutcome launch(const std::filesystem::path& scene, const std::string& entry = "survey_entry.py") {
     if (is_blend(scene)) return launch_on(BlendPath(scene), scene, entry);
-    const LaunchOutcome imported = launch_on(std::nullopt, scene, "import_entry.py");
+    const LaunchOutcome imported = import_only(scene);
     if (!std::holds_alternative<Finished>(imported)) return imported;
     const auto blend = std::get<Finished>(imported).result.at("blend").get<std::string>();
     return launch(last_folder_ / blend, entry);
+  }
+
+  LaunchOutcome import_only(const std::filesystem::path& scene) {
+    return launch_on(std::nullopt, scene, "import_entry.py");
   }
 
   SceneSurvey survey(const std::filesystem::path& scene) {

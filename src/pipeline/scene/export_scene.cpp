@@ -13,6 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// An exported scene is one moment of one view layer, and holds no other.
+void refuse_choice(const SceneSettings& scene) {
+  const SceneSettings none;
+  const char* chosen = scene.scene != none.scene             ? "--scene"
+                       : scene.view_layer != none.view_layer ? "--view-layer"
+                       : scene.frame != none.frame           ? "--frame"
+                                                             : nullptr;
+  if (chosen == nullptr) return;
+  fail(ExitCode::usage,
+       "{}: {} chooses in a .blend, and this is an exported scene; give it to rnmbake export",
+       scene.file.string(), chosen);
+}
+
 /// Launches the export of a lambert scene.
 DiffuseScene launch_export(BlenderSession& session, const BlendPath& lambert) {
   const Launch launch = launch_on(session, "export_entry.py", "export", lambert);
@@ -64,6 +77,7 @@ ExportResult export_surfaces(BlenderSession& session) {
   ExportResult result;
   std::vector<std::string> logged;
   if (is_rnmscene(file)) {
+    refuse_choice(session.settings().scene);
     result.diffuse_scene = read_diffuse_scene(file);
     put_inputs_first(result.diffuse_scene.survey, {{"scene", fs::absolute(file).lexically_normal(), true}});
   } else {

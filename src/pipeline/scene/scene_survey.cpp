@@ -33,7 +33,12 @@ SceneSurvey survey_blend(BlenderSession& session, const BlendPath& blend) {
 }  // namespace
 
 nlohmann::json scene_request(const BlenderSession& session, const fs::path& scene) {
-  return {{"scene", fs::absolute(scene).string()}, {"allow_scripts", session.settings().scene.allow_scripts}};
+  const SceneSettings& settings = session.settings().scene;
+  return {{"scene", fs::absolute(scene).string()},
+          {"allow_scripts", settings.allow_scripts},
+          {"scene_name", settings.scene},
+          {"view_layer", settings.view_layer},
+          {"frame", settings.frame}};
 }
 
 Launch launch_on(BlenderSession& session, const char* entry, const char* purpose, const BlendPath& scene) {

@@ -60,7 +60,7 @@ void put_inputs_first(SceneSurvey& survey, std::vector<InputFile> inputs);
 [[nodiscard]] Launch launch_on(BlenderSession& session, const char* entry, const char* purpose,
                                const BlendPath& scene);
 
-/// Part of a request that names the scene.
+/// Part of a request that names the file, and scene, view layer and frame in it (opening/choose.py).
 [[nodiscard]] nlohmann::json scene_request(const BlenderSession& session, const std::filesystem::path& scene);
 
 }  // namespace rnmbake

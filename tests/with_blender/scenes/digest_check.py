@@ -294,6 +294,8 @@ def main():
     found = differences(asked, take_digest())
     if found != {"scene settings": "changed"}:
         wrong.append(f"a camera that a material asks for: {found}")
+    fresh()  # for the launches that follow
+    base.write_imports(FOLDER)
     print(len(before), "parts;", len(CHANGED), "changes,", len(SAME), "that are none")
     if wrong:
         raise SystemError("\n".join(wrong))

@@ -1,8 +1,9 @@
 """The scene of digest_check.py: one of each thing that the digest has to tell apart, with files around it."""
+import json
 import os
+import struct
 
 import bpy
-
 
 
 def build(folder):
@@ -127,3 +128,29 @@ def instances():
         placer.instance_type, placer.instance_collection = "COLLECTION", parts
         placer.location = (10 + number, 0, 0)
         bpy.context.scene.collection.objects.link(placer)
+
+
+def write_imports(folder):
+    """folder/room.gltf and room.obj, which name files of their own and textures/wall.png."""
+    corners, uvs = ((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((0, 0), (1, 0), (0, 1))
+    with open(os.path.join(folder, "room.bin"), "wb") as stream:
+        for rows in (corners, uvs):
+            stream.write(b"".join(struct.pack("<f", value) for row in rows for value in row))
+    views = [{"buffer": 0, "byteOffset": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}]
+    gltf = {
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0, "name": "Wall"}],
+        "buffers": [{"uri": "room.bin", "byteLength": 60}], "bufferViews": views,
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                       "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+        "materials": [{"name": "Brick", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "textures/wall.png"}],
+    }
+    with open(os.path.join(folder, "room.gltf"), "w", encoding="utf-8") as stream:
+        json.dump(gltf, stream)
+    with open(os.path.join(folder, "room.mtl"), "w", encoding="utf-8") as stream:
+        stream.write("newmtl Brick\nKd 1 1 1\nmap_Kd textures/wall.png\n")
+    lines = ["mtllib room.mtl", "o Wall"] + ["v %g %g %g" % corner for corner in corners]
+    lines += ["vt %g %g" % uv for uv in uvs] + ["usemtl Brick", "f 1/1 2/2 3/3"]
+    with open(os.path.join(folder, "room.obj"), "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines) + "\n")
