@@ -23,7 +23,7 @@ def neutralise(scene):
 def settle_render(scene):
     render = scene.render
     for name in ("use_simplify", "use_motion_blur", "use_border", "use_persistent_data", "use_multiview",
-                 "use_freestyle", "use_compositing", "use_sequencer"):
+                 "use_freestyle", "use_compositing", "use_sequencer", "use_stamp"):
         set_if_there(render, name, False)
     set_if_there(render.bake, "view_from", "ABOVE_SURFACE")  # a camera's view would turn normals towards it
     set_if_there(render.bake, "target", "IMAGE_TEXTURES")  # Cycles reads it beside what the operator says

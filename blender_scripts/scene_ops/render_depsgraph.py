@@ -46,7 +46,7 @@ def prepare_render(scene):
     render.resolution_x = render.resolution_y = 8
     render.resolution_percentage = 100
     for name in ("use_compositing", "use_sequencer", "use_border", "use_freestyle", "use_multiview",
-                 "use_motion_blur", "use_persistent_data", "use_simplify", "use_single_layer"):
+                 "use_motion_blur", "use_persistent_data", "use_simplify", "use_single_layer", "use_stamp"):
         if hasattr(render, name):
             setattr(render, name, False)
     for layer in scene.view_layers:

@@ -166,6 +166,16 @@ CHANGED = [
 ]
 
 
+def link_light():
+    lit = bpy.data.collections.new("Lit")
+    lit.objects.link(ob("Wall"))
+    ob("Lamp").light_linking.receiver_collection = lit
+
+
+if hasattr(bpy.types.Object, "light_linking"):  # from 4.0 on
+    CHANGED.append(("what a light lights", link_light, {"object 'Lamp'": "changed", "collection 'Lit'": "new"}))
+
+
 def select():
     for other in bpy.context.view_layer.objects:
         other.select_set(True)
