@@ -35,6 +35,13 @@ def feed_mesh(mesh, arrays, feed):
     feed_attributes(mesh, feed, {layer.name for layer in mesh.uv_layers})
 
 
+def feed_source(mesh, feed):
+    """A mesh that nodes or modifiers read and no render shows as it is."""
+    feed.add_array("positions", read(mesh.vertices, "co", "f", 3))
+    feed.add_array("corners", read(mesh.loops, "vertex_index", "i"))
+    feed_attributes(mesh, feed)
+
+
 def feed_attributes(data, feed, read_already=frozenset()):
     for attribute in sorted(data.attributes, key=lambda attribute: attribute.name):
         name, domain, kind = attribute.name, attribute.domain, attribute.data_type

@@ -5,7 +5,7 @@ read-only is derived from something else and counts nowhere.
 """
 
 EVERYWHERE = set("""rna_type id_data animation_data original library library_weak_reference override_library asset_data
-    preview grease_pencil tag use_fake_user use_extra_user select show_expanded is_active""".split())
+    preview grease_pencil tag is_runtime_data use_fake_user use_extra_user select show_expanded is_active""".split())
 
 BY_TYPE = {
     "ID": "name",
@@ -25,7 +25,7 @@ BY_TYPE = {
         show_in_front pose_library pose show_only_shape_key use_shape_key_edit_mode active_shape_key
         active_shape_key_index display lineart use_mesh_mirror_x use_mesh_mirror_y use_mesh_mirror_z
         animation_visualization motion_path light_linking active_selection_set selection_sets hide_surface_pick
-        hide_probe_volume hide_probe_sphere hide_probe_plane use_simulation_cache shadow_terminator_normal""",
+        hide_probe_volume hide_probe_sphere hide_probe_plane use_simulation_cache""",
     # Arrays are read as such.
     "Mesh": """vertices edges loops polygons vertex_normals polygon_normals corner_normals loop_triangles
         loop_triangle_polygons texture_mesh uv_layers uv_layer_clone uv_layer_clone_index uv_layer_stencil
@@ -51,12 +51,12 @@ BY_TYPE = {
         metallic line_color line_priority lineart surface_render_method use_transparency_overlap
         use_raytrace_refraction use_thickness_from_shadow thickness_mode use_backface_culling
         use_backface_culling_shadow use_backface_culling_lightprobe_volume max_vertex_displacement
-        is_grease_pencil use_transparent_shadow_eevee""",
+        is_grease_pencil""",
     "Light": """cutoff_distance use_custom_distance shadow_buffer_size shadow_buffer_clip_start shadow_buffer_bias
         shadow_buffer_samples shadow_color use_contact_shadow contact_shadow_distance contact_shadow_bias
         contact_shadow_thickness specular_factor diffuse_factor transmission_factor volume_factor show_cone distance
         shadow_cascade_max_distance shadow_cascade_count shadow_cascade_exponent shadow_cascade_fade
-        shadow_softness_factor shadow_trace_distance use_soft_falloff_eevee shadow_filter_radius
+        shadow_softness_factor shadow_trace_distance shadow_filter_radius
         shadow_maximum_resolution shadow_jitter_overblur use_shadow_jitter use_absolute_resolution falloff_curve
         linear_attenuation quadratic_attenuation constant_coefficient linear_coefficient quadratic_coefficient
         falloff_type""",
@@ -78,7 +78,9 @@ BY_TYPE = {
         bl_icon annotation default_group_node_width color_tag use_fake_user color_management""",
     "CurveMapping": "tone",
     "Modifier": "name show_viewport show_in_editmode show_on_cage use_pin_to_last persistent_uid execution_time",
-    "NodesModifier": "panels bakes bake_directory bake_target show_group_selector show_manage_panel",
+    "NodesModifier": """panels bakes bake_directory bake_target node_warnings show_group_selector show_manage_panel
+        open_output_attributes_panel open_manage_panel open_bake_panel open_named_attributes_panel
+        open_bake_data_blocks_panel open_warnings_panel""",
     "PointCache": "filepath name index",
     "ParticleSystem": "particles child_particles parent cloth",
     "ParticleSettings": "display_color display_method display_percentage display_size display_step color_maximum "

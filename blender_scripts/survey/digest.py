@@ -23,6 +23,7 @@ class SceneDigest:
         self._meshes = meshes  # MeshFile, which has read every surface
         self._found = {}  # what: fingerprints of all that goes by the name
         self._seen, self._waiting = set(), []
+        self._shown = set()  # names of objects
         self._image_users = {}
         self._asks_camera = self._asks_layer = False
         self._walker = Walker(self._refer, self._look)
@@ -65,8 +66,11 @@ class SceneDigest:
             instances.setdefault(f"instances of '{instancer}'", []).append(" ".join(map(str, values)))
             self._refer(instance.parent.original.evaluated_get(depsgraph))
         self._refer(ob.original.evaluated_get(depsgraph))
-        if isinstance(ob.data, bpy.types.Mesh) and instance.show_self:
+        self._shown.add(name_of(ob))
+        if instance.show_self and isinstance(ob.data, bpy.types.Mesh):
             self._add_mesh(ob)
+        elif instance.show_self and ob.type in ("CURVES", "POINTCLOUD"):
+            self._add_points(ob)
 
     def _refer(self, block):
         """Name of a data-block among the entries; it is looked at later, as evaluated."""
@@ -91,6 +95,9 @@ class SceneDigest:
             return self._feed_object(block, feed)
         if isinstance(block, bpy.types.Collection):
             return self._feed_collection(block, feed)
+        return self._feed_content(block, feed)
+
+    def _feed_content(self, block, feed):
         self._walker.walk(block, feed, block)
         if isinstance(block, bpy.types.Image):
             content.feed_image(block, self._image_users.get(name_of(block)), feed)
@@ -114,8 +121,11 @@ class SceneDigest:
         for role in ("receiver_collection", "blocker_collection"):
             chosen = getattr(linking, role, None)
             feed.add(role, chosen and self._refer(chosen))
-        if ob.type in ("LIGHT", "VOLUME", "CURVES", "POINTCLOUD", "HAIR") and ob.data:
+        if ob.type in ("LIGHT", "VOLUME") and ob.data:
             feed.add(self._refer(ob.data))
+        nodes = any(modifier.type == "NODES" for modifier in ob.modifiers)
+        if isinstance(placing.data, bpy.types.Mesh) and (nodes or name_of(ob) not in self._shown):
+            content.feed_source(placing.data, feed)
         self._feed_modifiers(ob, feed)
         for system in ob.particle_systems:
             feed.add("particle system", self._refer(system.settings))
@@ -155,7 +165,21 @@ class SceneDigest:
         source = ob.original.data
         if isinstance(source, bpy.types.Mesh) and (ob.modifiers or source.shape_keys):
             feed.add_array("undeformed", content.read(mesh.vertices, "undeformed_co", "f", 3))
+        materials = list(mesh.materials)
+        if materials != [slot.material for slot in ob.material_slots]:  # nodes gave it others
+            feed.add([material and self._refer(material) for material in materials])
         self._put(name_of(source or mesh), feed)
+
+    def _add_points(self, ob):
+        """Hair curves or a cloud of points, also those that geometry nodes make of a mesh."""
+        key = ob.data.as_pointer()
+        if key in self._seen:
+            return
+        self._seen.add(key)
+        feed = Feed()
+        self._feed_content(ob.data, feed)
+        feed.add([material and self._refer(material) for material in ob.data.materials])
+        self._put(name_of(ob.original.data or ob.data), feed)
 
     def _look(self, node):
         image, user = getattr(node, "image", None), getattr(node, "image_user", None)

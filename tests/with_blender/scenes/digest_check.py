@@ -157,6 +157,11 @@ CHANGED = [
      {"instances of 'Placer0'": "changed", "instances of 'Placer1'": "changed", "object 'Second'": "new",
       "mesh 'Second'": "new"}),
     ("strands", put("particles['Strands'].hair_length", 2), {"object 'Fur'": "changed", "particles 'Strands'": "changed"}),
+    ("a value of geometry nodes", lambda: exec("bpy.data.node_groups['Scatter'].nodes['Points'].inputs['Radius']"
+                                               ".default_value = .3"),
+     {"node group 'Scatter'": "changed", "mesh 'Dots'": "changed"}),
+    ("what geometry nodes read", lambda: exec("bpy.data.meshes['Dots'].vertices[0].co.z = .3"),
+     {"object 'Dots'": "changed", "mesh 'Dots'": "changed"}),
     ("caustics", lambda: exec("bpy.context.scene.cycles.caustics_refractive = False"), {"scene settings": "changed"}),
     ("steps in volumes", lambda: exec("bpy.context.scene.cycles.volume_max_steps = 7"), {"scene settings": "changed"}),
     ("a library", library, {"object 'Chair [furniture.blend]'": "changed"}),
@@ -172,7 +177,7 @@ def link_light():
     ob("Lamp").light_linking.receiver_collection = lit
 
 
-if hasattr(bpy.types.Object, "light_linking"):  # from 4.0 on
+if "light_linking" in bpy.types.Object.bl_rna.properties:  # from 4.0 on
     CHANGED.append(("what a light lights", link_light, {"object 'Lamp'": "changed", "collection 'Lit'": "new"}))
 
 

@@ -16,6 +16,7 @@ def build(folder):
                 for name, shade in (("wall.png", .2), ("tiles.1001.png", .3), ("tiles.1002.png", .4),
                                     ("film_0001.png", .5), ("film_0002.png", .6))}
     surfaces(pictures)
+    scattered()
     lights()
     instances()
     with bpy.data.libraries.load(os.path.join(folder, "furniture.blend"), link=True) as (_, wanted):
@@ -109,6 +110,23 @@ def plain_material():
     links.new(ramp.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
     bpy.data.materials.new("Unused").use_fake_user = True
     return material
+
+
+def scattered():
+    """A plane whose nodes make of it a cloud of points."""
+    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    if hasattr(tree, "interface"):  # from 4.0 on
+        for side in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    begin, points, end = (tree.nodes.new(kind) for kind in (
+        "NodeGroupInput", "GeometryNodeMeshToPoints", "NodeGroupOutput"))
+    points.name = "Points"
+    tree.links.new(begin.outputs[0], points.inputs["Mesh"])
+    tree.links.new(points.outputs[0], end.inputs[0])
+    square("Dots", (12, 2, 0)).modifiers.new("Scatter", "NODES").node_group = tree
 
 
 def lights():
