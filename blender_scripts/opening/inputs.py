@@ -92,7 +92,7 @@ def _caches():
 
 def _named_by_nodes():
     """Profiles of lamps, and shader programs."""
-    kinds = {"TEX_IES": "light", "SCRIPT": "script"}
+    kinds = {"TEX_IES": "light profile", "SCRIPT": "script"}
     for tree in _trees():
         for node in tree.nodes:
             if node.type in kinds and node.mode == "EXTERNAL" and node.filepath:

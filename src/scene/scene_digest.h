@@ -33,7 +33,8 @@ struct SceneDigest {
 
 /// A file that a scene reads.
 struct InputFile {
-  std::string kind;  // "scene", "library", "picture", "volume", "cache", "font", "light", "script", ...
+  std::string
+      kind;  // "scene", "library", "picture", "volume", "cache", "font", "light profile", "script", ...
   std::filesystem::path path;  // absolute
   bool was_there = true;
   auto operator<=>(const InputFile&) const = default;
