@@ -86,11 +86,11 @@ def run(argv, environment=None):
     return {"wall": wall, "cpu": cpu, "peak": peak.kibibytes * 1024, "others": max(0.0, busy - cpu) / wall, "output": text}
 
 
-def bake(scene, *flags, environment=None):
+def bake(scene, *flags, environment=None, rnmbake=RNMBAKE):
     """rnmbake bake into a folder that is thrown away; adds the manifest's timings."""
     WORK.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=WORK) as folder:
-        cost = run([RNMBAKE, "bake", scene, "-o", folder, "--save-scene", "never", *flags], environment)
+        cost = run([rnmbake, "bake", scene, "-o", folder, "--save-scene", "never", *flags], environment)
         manifest = json.loads((Path(folder) / "manifest.json").read_text(encoding="utf-8"))
     del cost["output"]
     sizes = [o["triangles"] for o in manifest["objects"]]

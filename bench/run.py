@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import convert
+import dense
 import dispatch
 import measure
 import memory
@@ -18,7 +19,7 @@ import ssbump
 import startup
 import tracing
 
-BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "memory": memory, "preparation": preparation,
+BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "dense": dense, "memory": memory, "preparation": preparation,
               "startup": startup, "tracing": tracing, "ssbump": ssbump,
               "convert": convert, "probes": probes}
 RESULTS = Path(__file__).resolve().parent / "results"
@@ -41,6 +42,7 @@ def arguments():
     parser.add_argument("--objects", type=int, nargs="+", help="dispatch: sizes of the hall (10 40 160)")
     parser.add_argument("--samples", type=int, nargs="+", help="overhead: samples (256)")
     parser.add_argument("--scenes", nargs="+", help="tracing: only these; the others' figures stay, if they are of this machine")
+    parser.add_argument("--before", type=Path, metavar="BINARY", help="dense: an earlier rnmbake to compare with")
     parser.add_argument("--ssbump", metavar="FLAGS", help="ssbump: flags for bench_ssbump, such as '--side 256'")
     parser.add_argument("--patience", type=float, default=0, metavar="S",
                         help="wait so long for a quiet machine before each benchmark")

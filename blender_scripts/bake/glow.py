@@ -19,10 +19,13 @@ LARGE = 0.25  # of the area of everything that is rendered
 
 
 def leave_large_emitters_to_chance():
-    areas, glowing = _areas_by_material()
+    glowing = [material for material in bpy.data.materials if describe_material(material)["emissive"]]
+    if not glowing:
+        return
+    areas = _areas_by_material()
     total = sum(areas.values())
     for material in glowing:
-        if areas[material] > LARGE * total:
+        if areas.get(material, 0) > LARGE * total:
             _no_light_sampling(material)
 
 
@@ -65,7 +68,7 @@ def _math(tree, operation, *inputs):
 
 
 def _areas_by_material():
-    """Square units of each material as it is rendered, and which of them emit light."""
+    """Square units of each material as it is rendered."""
     areas = {}
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         ob = instance.object
@@ -75,13 +78,15 @@ def _areas_by_material():
         materials = [slot.material.original if slot.material else None for slot in ob.material_slots] or [None]
         for material, area in zip(materials, _areas_by_slot(ob.data, len(materials))):
             areas[material] = areas.get(material, 0) + scale * area
-    return areas, [material for material in areas if material and describe_material(material)["emissive"]]
+    return areas
 
 
 def _areas_by_slot(mesh, slots):
     count = len(mesh.polygons)
     area, index = array("f", bytes(4 * count)), array("i", bytes(4 * count))
     mesh.polygons.foreach_get("area", area)
+    if slots == 1:
+        return [sum(area)]
     mesh.polygons.foreach_get("material_index", index)
     sums = [0.0] * slots
     for one, slot in zip(area, index):
