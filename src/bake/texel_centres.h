@@ -2,8 +2,8 @@
 //
 // Blender bakes a texel by the last triangle that holds its centre, moved by up to 0.002 texels
 // (scene/uv_raster.h), and samples never leave that triangle. So a triangle between the centres, of which
-// meshes finer than their lightmap have hundreds of thousands, costs time and lights nothing. Lightmaps are the
-// same bit for bit in 3.4 and 4.2; in 5.0 a texel in thousands may differ in its last binary digit.
+// meshes finer than their lightmap have hundreds of thousands, costs time and lights nothing. Lightmaps are
+// the same bit for bit in 3.4 and 4.2; in 5.0 a texel in thousands may differ in its last binary digit.
 #pragma once
 
 #include "bake/atlas.h"
