@@ -17,6 +17,7 @@ from opening.inputs import scene_inputs  # noqa: E402
 from opening.load import open_to_measure, refuse_blocked_scripts, scene_warnings  # noqa: E402
 from scene_ops import displacement  # noqa: E402
 from scene_ops.saving import save_copy  # noqa: E402
+from survey.surveyor import DigestSurveyor, survey_scene  # noqa: E402
 
 FILE = "lambert.blend"
 
@@ -29,6 +30,8 @@ def main(task):
     notes.remember_probe_places(bpy.context.scene)
     warnings += displacement.settle()
     task.progress("evaluate")
+    surveyor = DigestSurveyor(task)  # of the user's scene: baked colours are not the same to the bit in every run
+    survey_scene(task, surveyor)
     shown = collect.Scene()
     refuse_blocked_scripts(task)  # drivers are found out only when they are evaluated
     flat_scene.rebuild(shown)
@@ -37,7 +40,8 @@ def main(task):
     bpy.context.scene[notes.OUTSIDE] = json.dumps(shown.outside)
     # Relative paths, such as those of sky pictures, must lead to the same files from the new place.
     save_copy(task.path(FILE), relative_remap=True, check_existing=False)
-    return {"blend": FILE, "warnings": warnings, "inputs": inputs}
+    return {"blend": FILE, "warnings": warnings, "inputs": inputs,
+            "digest": surveyor.digest.entries()}
 
 
 run(main)

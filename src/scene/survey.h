@@ -65,7 +65,7 @@ struct SceneSurvey {
   double world_strength = 0;
   std::array<double, 3> world_color{1, 1, 1};
   std::vector<std::string> warnings;  // what the user should know of the scene, one line each
-  SceneDigest digest;                 // of all that Cycles could see; empty in a scene file for the tracer
+  SceneDigest digest;                 // of the user's own scene; empty in a scene file for the tracer
   std::vector<InputFile> inputs;      // every file that was read, the scene itself first
 
   [[nodiscard]] const Mesh& mesh_of(const SceneObject& object) const {

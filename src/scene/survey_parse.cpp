@@ -75,19 +75,6 @@ void read_world(const json& entry, SceneSurvey& survey) {
   survey.world_color = entry.at("color").get<std::array<double, 3>>();
 }
 
-/// Sorts the parts by name, as differences() wants them.
-SceneDigest read_digest(const json& list) {
-  std::map<std::string, std::string> parts;
-  for (const json& entry : list) {
-    const auto& what = entry.at("what").get_ref<const std::string&>();
-    if (!parts.emplace(what, entry.at("hash").get<std::string>()).second)
-      fail(ExitCode::invalid_input, "{}: twice in the digest of the scene", what);
-  }
-  SceneDigest digest;
-  for (const auto& [what, hash] : parts) digest.entries.push_back({what, hash});
-  return digest;
-}
-
 void read_objects(const json& content, SceneSurvey& survey) {
   std::set<std::string> keys;
   for (const json& entry : content.at("objects")) {
@@ -138,6 +125,18 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
     }
   }
   return matrix;
+}
+
+SceneDigest read_digest(const json& list) {
+  std::map<std::string, std::string> parts;
+  for (const json& entry : list) {
+    const auto& what = entry.at("what").get_ref<const std::string&>();
+    if (!parts.emplace(what, entry.at("hash").get<std::string>()).second)
+      fail(ExitCode::invalid_input, "{}: twice in the digest of the scene", what);
+  }
+  SceneDigest digest;
+  for (const auto& [what, hash] : parts) digest.entries.push_back({what, hash});
+  return digest;
 }
 
 std::vector<InputFile> read_inputs(const json& list) {

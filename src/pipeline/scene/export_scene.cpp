@@ -88,6 +88,7 @@ ExportResult export_surfaces(BlenderSession& session) {
     log::info("writing down the scene for the tracer");
     result.diffuse_scene = launch_export(session, lambert.blend);
     result.diffuse_scene.survey.scene_file = file.string();
+    result.diffuse_scene.survey.digest = std::move(lambert.digest);
     add_inputs(own.inputs, lambert.inputs);
     put_inputs_first(result.diffuse_scene.survey, std::move(own.inputs));
   }

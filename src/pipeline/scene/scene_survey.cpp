@@ -69,8 +69,8 @@ LambertScene make_lambert_scene(BlenderSession& session, const BlendPath& own) {
   const nlohmann::json answer = session.run(launch);
   warn_of_newer(session, own);
   LambertScene result{BlendPath(answered_file(answer, "blend", launch.folder)),
-                      answer.at("warnings").get<std::vector<std::string>>(),
-                      read_inputs(answer.at("inputs"))};
+                      answer.at("warnings").get<std::vector<std::string>>(), read_inputs(answer.at("inputs")),
+                      read_digest(answer.at("digest"))};
   warn_of_objects(result.warnings);
   return result;
 }
@@ -103,13 +103,16 @@ SurveyResult survey_scene(BlenderSession& session) {
   ImportedScene imported = import_scene(session, scene.file);
   SceneBlends blends{imported.blend, imported.blend};
   std::vector<std::string> logged;
+  SceneDigest own_digest;
   if (scene.materials == SceneSettings::Materials::lambert) {
     LambertScene lambert = make_lambert_scene(session, blends.own);
     add_inputs(imported.inputs, lambert.inputs);
     blends.shown = lambert.blend;
+    own_digest = std::move(lambert.digest);
     logged = std::move(lambert.warnings);
   }
   SurveyResult result{survey_blend(session, blends.shown), blends};
+  if (!own_digest.empty()) result.survey.digest = std::move(own_digest);
   result.survey.scene_file = scene.file.string();
   put_inputs_first(result.survey, imported.inputs);
   log_warnings(result.survey, logged);

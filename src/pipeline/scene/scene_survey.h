@@ -45,6 +45,7 @@ struct LambertScene {
   BlendPath blend;
   std::vector<std::string> warnings;  // losses against the user's materials
   std::vector<InputFile> inputs;      // files that the user's scene read
+  SceneDigest digest;                 // of the user's scene, for this one's baked colours differ by run
 };
 
 /// Logs the warnings.
