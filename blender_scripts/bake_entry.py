@@ -3,7 +3,7 @@
     blender -b SCENE --python bake_entry.py -- request.json
 
 Request: "scene" (see opening/load.py), "cycles" (see scene_ops/cycles.py), "recipe", and either
-"atlases" (receiver) or "targets" (flat-normal-map). Each bake is written as raw floats beside the request.
+"atlases" with "passes" (receiver) or "targets" (flat-normal-map). Each bake is written as raw floats beside the request.
 """
 import os
 import sys
@@ -13,8 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 
 from core import task as core_task  # noqa: E402
-from core.stopwatch import Stopwatch  # noqa: E402
-from bake import fences, flat_normal_map, glow, own_shadow, receivers  # noqa: E402
+from bake import fences, flat_normal_map, glow, own_shadow, sheets  # noqa: E402
 from objects import realize  # noqa: E402
 from opening import load  # noqa: E402
 from scene_ops import cycles, displacement, lamps  # noqa: E402
@@ -47,42 +46,39 @@ def guard_faces(task, scene, guards):
 
 def bake_receivers(task, scene):
     cycles.apply_settings(scene, task.request["cycles"])
-    atlases = task.request["atlases"]
-    total = sum(atlas["covered_texels"] for atlas in atlases)
-    done, timings = 0, []
-    for number, atlas in enumerate(atlases, 1):
-        name = f"atlas {number} of {len(atlases)}"
-        work = range(done, done + atlas["covered_texels"])
-        timings.append(bake_atlas(task, scene, atlas, lambda *event: say(task, name, work, total, *event)))
-        done = work.stop
+    sheets_ = [sheets.Sheet(task, scene, atlas) for atlas in task.request["atlases"]]
+    texels = sum(sheet.texels for sheet in sheets_)
+    total = sum(part["count"] for part in task.request["passes"]) * texels
+    done = 0
+    for part, left_out in passes(task):
+        total = max(total, done + part["count"] * texels)
+        cycles.take_pass(scene, part)
+        for number, (sheet, file) in enumerate(zip(sheets_, part["pixels"]), 1):
+            name = f"pass {part['number'] + 1}"
+            if len(sheets_) > 1:
+                name += f", atlas {number} of {len(sheets_)}"
+            work = range(done, done + sheet.texels * part["count"])
+            sheet.bake(part, file, left_out, lambda *event: say(task, name, work, total, *event))
+            done = work.stop
     task.progress("bake", name, total, total)
-    return {"atlases": timings}
+    return {"atlases": [sheet.timings() for sheet in sheets_]}
+
+
+def passes(task):
+    """Passes to bake, with the receivers that each does without; by rounds: until the driver names no more."""
+    known, left_out = task.request["passes"], task.request["left_out"]
+    while known:
+        for part in known:
+            yield part, left_out
+        if not task.request["by_rounds"]:
+            return
+        more = task.wait_for(f"go{known[-1]['number'] + 1}.json")
+        known, left_out = more["passes"], more["left_out"]
 
 
 def say(task, name, work, total, phase, begun, ended=0, samples=0):
-    """`begun` and `ended`: shares of the atlas, whose covered texels are `work`."""
+    """`begun` and `ended`: shares of a pass over an atlas, whose texels x samples are `work`."""
     task.progress(phase, name, work.start + begun * len(work), total, work.start + ended * len(work), samples)
-
-
-def bake_atlas(task, scene, atlas, tell):
-    """One image, filled by one bake call for each light-linking group among its receivers."""
-    image = cycles.new_float_image("rnmbake atlas", atlas["width"], atlas["height"])
-    samples = cycles.samples_of_picture(scene, atlas["width"], atlas["height"])
-    clock, prepare, bake = Stopwatch(), 0, 0
-    with open(task.path(atlas["arrays"]), "rb") as stream:
-        for number, group in enumerate(atlas["groups"]):
-            begun, ended = number / len(atlas["groups"]), (number + 1) / len(atlas["groups"])
-            tell("build", begun)
-            mesh = receivers.build_mesh("rnmbake receiver", stream, group["corners"])
-            receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image), group["light_group"])
-            prepare += clock.lap()
-            tell("bake", begun, ended, samples)
-            cycles.bake_diffuse(scene, receiver, clear=number == 0)
-            bake += clock.lap()
-            bpy.data.meshes.remove(mesh)  # and with it the receiver
-    cycles.save_pixels(image, task.path(atlas["pixels"]))
-    bpy.data.images.remove(image)
-    return {"prepare_seconds": prepare, "bake_seconds": bake, "save_seconds": clock.lap()}
 
 
 core_task.run(main)

@@ -33,7 +33,7 @@ def main(folder, answer):
         with open(os.path.join(folder, atlas["arrays"]), "rb") as stream:
             for group in atlas["groups"]:
                 start = time.process_time()
-                receivers.build_mesh("receiver", stream, group["corners"])
+                receivers.build_mesh("receiver", stream, [(group["corners"], True)])
                 whole += time.process_time() - start
                 corners += group["corners"]
     steps = {"build": whole - sum(normals), "normals": sum(normals)}

@@ -12,11 +12,11 @@ from scene_ops import light_linking
 from scene_ops.plain_material import new_diffuse
 
 
-def build_mesh(name, stream, corners):
-    """Read positions, normals, UVs (3 + 3 + 2 floats for each corner) from `stream` and build the mesh."""
-    positions = read_floats(stream, 3 * corners)
-    normals = read_floats(stream, 3 * corners)
-    uvs = read_floats(stream, 2 * corners)
+def build_mesh(name, stream, parts):
+    """Read positions, normals, UVs (3 + 3 + 2 floats for each corner) from `stream` and build the mesh. `parts`: pairs
+    of the number of corners that follow each other and whether they belong to it."""
+    positions, normals, uvs = (_read_parts(stream, floats, parts) for floats in (3, 3, 2))
+    corners = len(positions) // 3
     triangles = corners // 3
 
     mesh = bpy.data.meshes.new(name)
@@ -34,6 +34,18 @@ def build_mesh(name, stream, corners):
     mesh.update()
     _set_normals(mesh, normals)
     return mesh
+
+
+def _read_parts(stream, floats, parts):
+    everything = read_floats(stream, floats * sum(corners for corners, _ in parts))
+    if all(wanted for _, wanted in parts):
+        return everything
+    kept, first = array("f"), 0
+    for corners, wanted in parts:
+        if wanted:
+            kept += everything[first:first + floats * corners]
+        first += floats * corners
+    return kept
 
 
 def _set_normals(mesh, normals):
@@ -60,16 +72,22 @@ def make_material(image):
 
 
 def make_receiver(scene, mesh, material, light_group=""):
-    """Link an object that the camera (and so the bake) sees and no other ray does.
+    """Link an object that the camera (and so the bake) sees and no other ray does, and a twin beside it.
 
     `light_group`: of what it stands for, where lights choose what they light (scene_ops/light_linking.py).
     """
     receiver = _camera_only(scene, mesh)
-    _camera_only(scene, mesh)  # a mesh with two users keeps a BVH of its own, which other rays pass by as a whole
+    twin = _camera_only(scene, mesh)  # a mesh with two users keeps a BVH of its own, which other rays pass by as a whole
     mesh.materials.append(material)
     _no_terminator_offset(receiver)
     light_linking.join_group(receiver, light_group)
-    return receiver
+    return receiver, twin
+
+
+def take_away(pair):
+    """The receiver and its twin, so that the next bake goes without them; their mesh stays."""
+    for ob in pair:
+        bpy.data.objects.remove(ob)
 
 
 def _camera_only(scene, mesh):

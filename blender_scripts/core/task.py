@@ -7,6 +7,7 @@ import errno
 import json
 import os
 import sys
+import time
 import traceback
 
 # base/error.h, ExitCode
@@ -52,6 +53,13 @@ class Task:
         self._progress.flush()
         self._events += 1
         print("rnmbake: event", self._events, phase, flush=True)
+
+    def wait_for(self, name):
+        """The JSON of a file that the driver will write; it ends this process where it ends itself."""
+        while not os.path.exists(self.path(name)):
+            time.sleep(0.02)
+        with open(self.path(name), encoding="utf-8") as stream:
+            return json.load(stream)
 
     def disk_is_full(self, error):
         """Whether `error` means a full disk; Blender's own errors have a message, but no errno."""

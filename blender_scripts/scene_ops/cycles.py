@@ -1,5 +1,6 @@
 """Cycles as an irradiance meter: every default that biases a bake is turned off."""
 import math
+import os
 
 import bpy
 
@@ -15,7 +16,8 @@ FOLLOWED = {"caustics_reflective", "caustics_refractive", "volume_bounces", "vol
 
 
 def apply_settings(scene, settings):
-    """`settings`: samples, bounces, seed, clamp, device, as in the [bake] table of a project file."""
+    """`settings`: samples, bounces, seed, clamp, device, as in the [bake] table of a project file. A bake in passes
+    chooses samples and seed pass by pass (take_pass)."""
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
     _put_back(cycles)
@@ -26,6 +28,19 @@ def apply_settings(scene, settings):
     _set_bounces(cycles, settings["bounces"])
     _remove_bias(cycles)
     use_device(scene, settings["device"])
+
+
+def take_pass(scene, part):
+    """The next bake takes `count` samples of a sequence that begins with `seed`, from number `first` on. Together the
+    passes of a sequence have the samples of one bake."""
+    cycles = scene.cycles
+    cycles.seed = part["seed"]
+    cycles.samples = part["count"]
+    cycles.sample_offset = part["first"]
+    if hasattr(cycles, "use_sample_subset"):  # from 4.5 on
+        cycles.use_sample_subset = True
+        cycles.sample_subset_length = part["count"]
+        cycles.samples = part["of"]
 
 
 def _put_back(cycles):
@@ -89,11 +104,11 @@ def bake_diffuse(scene, target, clear=True):
         raise Refusal(f"Blender cancelled the bake of '{target.name}'", object_name=target.name)
 
 
-def samples_of_picture(scene, width, height):
+def samples_of_picture(scene, width, height, samples=None):
     """Samples of one picture, over all of its tiles, for task.progress: Cycles counts them tile by tile."""
     cycles = scene.cycles
     side = cycles.tile_size if cycles.use_auto_tile else max(width, height)
-    return cycles.samples * math.ceil(width / side) * math.ceil(height / side)
+    return (samples or cycles.samples) * math.ceil(width / side) * math.ceil(height / side)
 
 
 def new_float_image(name, width, height):
@@ -103,9 +118,10 @@ def new_float_image(name, width, height):
 
 
 def save_pixels(image, path):
-    """RGBA, 32-bit float, bottom row first, no header."""
+    """RGBA, 32-bit float, bottom row first, no header. The file appears when it is whole."""
     from array import array
     pixels = array("f", bytes(16 * image.size[0] * image.size[1]))
     image.pixels.foreach_get(pixels)
-    with open(path, "wb") as stream:
+    with open(path + ".part", "wb") as stream:
         pixels.tofile(stream)
+    os.replace(path + ".part", path)

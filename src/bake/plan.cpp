@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 
 namespace rnmbake {
 namespace {
@@ -92,6 +93,33 @@ BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings) {
   if (settings.dispatch != BakingSettings::Dispatch::automatic) return settings.dispatch;
   return settings.recipe == BakingSettings::Recipe::receiver ? BakingSettings::Dispatch::scene
                                                              : BakingSettings::Dispatch::object;
+}
+
+std::vector<Batch> cut(const Batch& batch, const Plan& plan, std::int64_t max_pixels) {
+  std::map<std::size_t, std::int64_t> pixels;  // of each target
+  for (const std::size_t task : batch.tasks) {
+    for (const std::size_t rect : plan.tasks[task].rects) {
+      const RectSize size = plan.rects[rect].size;
+      pixels[plan.tasks[task].target] += std::int64_t(size.width) * size.height;
+    }
+  }
+  std::map<std::size_t, std::size_t> place;  // target -> batch
+  std::vector<Batch> batches;
+  std::int64_t filled = 0;
+  for (const std::size_t task : batch.tasks) {
+    const std::size_t target = plan.tasks[task].target;
+    const auto [known, is_new] = place.try_emplace(target);
+    if (is_new) {
+      filled += pixels[target];
+      if (batches.empty() || filled > max_pixels) {
+        batches.emplace_back();
+        filled = pixels[target];
+      }
+      known->second = batches.size() - 1;
+    }
+    batches[known->second].tasks.push_back(task);
+  }
+  return batches;
 }
 
 std::vector<Batch> split(const Batch& batch, const Plan& plan) {

@@ -23,15 +23,17 @@ struct CyclesSettings {
   double clamp = 0;
   std::string device = "CPU";
   bool lamps = true;  // whether lamp objects give light
+  double noise = 0;   // relative standard error that is enough, a share; 0: `samples` decide
   bool operator==(const CyclesSettings&) const = default;
 };
 
 /// What gets pictures of its own: a target with a lightmap (bake/targets.h), or a block of points in free
 /// space (bake/point_receivers.h).
 struct PlanTarget {
-  std::string key;          // in messages
-  RectSize map;             // texels
-  std::string light_group;  // of its object (scene/survey.h); "" in free space
+  std::string key;           // in messages
+  RectSize map;              // texels
+  std::string light_group;   // of its object (scene/survey.h); "" in free space
+  std::string content = {};  // what decides its pictures and is not in the plan's rectangles, as a hash
 };
 [[nodiscard]] PlanTarget plan_target(const SceneSurvey& survey, const Target& target);
 
@@ -91,6 +93,10 @@ void group_tasks(Plan& plan, BakingSettings::Dispatch mode);
 
 /// Resolves `automatic`: joined for receivers, a launch for each object otherwise.
 [[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
+
+/// Batches of whole targets, in their order, none of which has more pixels than `max_pixels`, unless a single
+/// target has.
+[[nodiscard]] std::vector<Batch> cut(const Batch& batch, const Plan& plan, std::int64_t max_pixels);
 
 /// The two halves of a batch that failed; at a boundary between targets where there is one.
 [[nodiscard]] std::vector<Batch> split(const Batch& batch, const Plan& plan);

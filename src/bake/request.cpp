@@ -50,8 +50,8 @@ void write_array(const fs::path& file, const std::vector<T>& values) {
   out.close();
 }
 
-std::string pixels_name(std::size_t picture) {
-  return "pixels" + std::to_string(picture) + ".f32";
+std::string pixels_name(std::size_t pass, std::size_t picture) {
+  return "pass" + std::to_string(pass) + "-" + std::to_string(picture) + ".f32";
 }
 
 /// Corner arrays of several rectangles as one mesh over one atlas: all positions, then all normals, then all
@@ -129,11 +129,16 @@ json write_atlas(const Plan& plan, const BatchLayout& layout, std::size_t atlas,
     }
     if (joined.count() == 0) continue;  // all its triangles lie between the centres of texels
     joined.write(out, size);
-    groups.push_back({{"corners", joined.count()}, {"light_group", group}});
+    json parts = json::array();
+    for (const std::size_t i : members) parts.push_back({i, plan.rects[layout.rects[i]].pass.corners.size()});
+    groups.push_back({{"corners", joined.count()}, {"light_group", group}, {"parts", parts}});
   }
   out.close();
-  return {{"width", size.width},          {"height", size.height}, {"arrays", arrays},
-          {"pixels", pixels_name(atlas)}, {"groups", groups},      {"covered_texels", texels}};
+  return {{"width", size.width},
+          {"height", size.height},
+          {"arrays", arrays},
+          {"groups", groups},
+          {"covered_texels", texels}};
 }
 
 /// The fences of all targets of a batch: their corners, then `up` once for each corner.
@@ -263,18 +268,32 @@ BakeRequest object_request(const BakeContext& context, const Batch& batch, bool 
     const Vec3 direction = in_frame(basis.direction, context.targets[rect.target]);
     entry->second["bakes"].push_back({{"basis", basis.name},
                                       {"direction", {direction.x, direction.y, direction.z}},
-                                      {"pixels", pixels_name(i)}});
+                                      {"pixels", pixels_name(0, i)}});
   }
   request.json["targets"] = json::array();
   for (auto& [index, description] : described) request.json["targets"].push_back(std::move(description));
   return request;
 }
 
-std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan, const fs::path& folder) {
+nlohmann::json pass_request(const SamplePass& pass, std::size_t number, const BatchLayout& layout, int seed) {
+  return {{"number", number},    {"seed", seed_of_half(seed, pass.half)},
+          {"first", pass.first}, {"count", pass.count},
+          {"of", pass.of},       {"pixels", pass_files(number, layout)}};
+}
+
+std::vector<std::string> pass_files(std::size_t number, const BatchLayout& layout) {
+  std::vector<std::string> names;
+  for (std::size_t atlas = 0; atlas < layout.atlas.atlases.size(); ++atlas)
+    names.push_back(pixels_name(number, atlas));
+  return names;
+}
+
+std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan, const fs::path& folder,
+                                   std::size_t number) {
   std::vector<FloatImage> rects(layout.rects.size());
   for (std::size_t atlas = 0; atlas < layout.atlas.atlases.size(); ++atlas) {
     const RectSize size = layout.atlas.atlases[atlas];
-    const std::vector<float> pixels = read_pixels(folder / pixels_name(atlas), size);
+    const std::vector<float> pixels = read_pixels(folder / pixels_name(number, atlas), size);
     for (std::size_t i = 0; i < rects.size(); ++i) {
       const Placement& place = layout.atlas.placements[i];
       if (place.atlas == atlas) rects[i] = cut(pixels, size.width, place, plan.rects[layout.rects[i]].size);

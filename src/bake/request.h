@@ -3,6 +3,7 @@
 
 #include "bake/atlas.h"
 #include "bake/plan.h"
+#include "bake/sample_passes.h"
 #include "bake/targets.h"
 #include "image/float_image.h"
 #include "scene/survey.h"
@@ -29,9 +30,13 @@ struct BakeContext {
 };
 
 struct BakeRequest {
-  nlohmann::json json;
+  nlohmann::json json;  // without its passes
   BatchLayout layout;
 };
+
+/// A pass as bake_entry.py wants it; `number`: of the pass within its batch.
+[[nodiscard]] nlohmann::json pass_request(const SamplePass& pass, std::size_t number,
+                                          const BatchLayout& layout, int seed);
 
 /// Receivers of all tasks, joined over atlases of at most `max_pixels`. Writes the arrays (32-bit floats:
 /// positions, normals, UVs of each group of corners) into `folder`.
@@ -44,9 +49,12 @@ struct BakeRequest {
 
 [[nodiscard]] nlohmann::json to_json(const CyclesSettings& settings);
 
-/// The rectangles (RGBA, row 0 on top, in the order of layout.rects) of a finished batch.
-/// Throws Error(tasks_failed) where a file is not as long as its picture.
+/// Files of a pass's pictures, one for each atlas; each appears when it is whole.
+[[nodiscard]] std::vector<std::string> pass_files(std::size_t number, const BatchLayout& layout);
+
+/// The rectangles (RGBA, row 0 on top, in the order of layout.rects) of a finished pass.
+/// Throws Error(tasks_failed) where a file is missing, or not as long as its picture.
 [[nodiscard]] std::vector<FloatImage> read_rects(const BatchLayout& layout, const Plan& plan,
-                                                 const std::filesystem::path& folder);
+                                                 const std::filesystem::path& folder, std::size_t number = 0);
 
 }  // namespace rnmbake

@@ -5,6 +5,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace rnmbake {
@@ -24,6 +25,17 @@ ProgressOptions progress_for(bool quiet, bool jsonl) {
     options.style = ProgressOptions::Style::bar;
   }
   return options;
+}
+
+std::optional<double> parse_duration(std::string_view text) {
+  double value = 0;
+  const auto [rest, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || !(value > 0) || !std::isfinite(value)) return std::nullopt;
+  const std::string_view unit(rest, std::size_t(text.data() + text.size() - rest));
+  if (unit.empty() || unit == "s") return value;
+  if (unit == "m") return value * 60;
+  if (unit == "h") return value * 3600;
+  return std::nullopt;
 }
 
 std::string spoken_duration(double seconds) {

@@ -28,6 +28,9 @@ ProgressOptions progress_for(bool quiet, bool jsonl);
 /// Seconds as a person says them: "8 s", "3 min 20 s", "2 h 05 min".
 std::string spoken_duration(double seconds);
 
+/// Seconds of "90", "90s", "10m", "1.5h"; nothing where it is none of these, or not above 0.
+std::optional<double> parse_duration(std::string_view text);
+
 /// One piece of work from 0 to 1. May be updated from several threads. The remaining time is the rate between
 /// the first advance and the last: what comes before the work (a scene that loads) is no part of it, and
 /// while nothing advances the time runs down.

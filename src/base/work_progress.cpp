@@ -21,6 +21,11 @@ void WorkProgress::finish(std::size_t launch, double done) {
   show();
 }
 
+void WorkProgress::leave_out(double work) {
+  const std::lock_guard lock(mutex_);
+  total_ -= work;
+}
+
 void WorkProgress::tick() {
   const std::lock_guard lock(mutex_);
   show();

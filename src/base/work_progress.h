@@ -20,6 +20,9 @@ class WorkProgress {
   /// The launch ended with so much work done that counts.
   void finish(std::size_t launch, double done);
 
+  /// So much of the total was done before, or need not be done.
+  void leave_out(double work);
+
   /// Says it again: one bake call lasts for minutes, and people want to see that something lives.
   void tick();
 

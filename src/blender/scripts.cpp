@@ -1,10 +1,28 @@
 #include "blender/scripts.h"
 
 #include "base/error.h"
+#include "base/hash.h"
+
+#include <map>
 
 namespace rnmbake {
 
 namespace fs = std::filesystem;
+
+std::string scripts_hash(const std::optional<fs::path>& instead) {
+  std::map<std::string, std::string> texts;  // by name, since folders are listed in any order
+  if (!instead) {
+    for (const auto& [name, text] : embedded_scripts()) texts[name] = text;
+  } else {
+    for (const auto& entry : fs::recursive_directory_iterator(*instead)) {
+      if (entry.path().extension() == ".py")
+        texts[fs::relative(entry.path(), *instead).string()] = read_text(entry.path());
+    }
+  }
+  std::string all;
+  for (const auto& [name, text] : texts) all += name + '\0' + text + '\0';
+  return hash128_hex(all);
+}
 
 ScriptFolder::ScriptFolder(const std::optional<fs::path>& instead) {
   if (instead) {

@@ -1,12 +1,15 @@
 #include "cli/bake.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/bake/bake_run.h"
+#include "pipeline/scene/scene_key.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
@@ -31,7 +34,14 @@ int report(const BakeOutcome& outcome, const OutputSettings& output) {
   return static_cast<int>(ExitCode::ok);
 }
 
+/// The moment on the clock at which --time is over.
+std::optional<double> deadline_of(const RunSettings& run, double started) {
+  const auto seconds = parse_duration(run.time);
+  return seconds ? std::optional(started + *seconds) : std::nullopt;
+}
+
 int bake(const ResolvedConfig& config) {
+  const double started = steady_clock().now();
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
@@ -41,7 +51,10 @@ int bake(const ResolvedConfig& config) {
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
-  return report(run_bake(session, {scene.survey, list, bases, scene.blends, std::move(earlier)}),
+  Store store("", 0);
+  const DispatchRules rules{{store, scene_key(session, scene.survey)},
+                            deadline_of(config.globals.run, started)};
+  return report(run_bake(session, {scene.survey, list, bases, scene.blends, std::move(earlier), rules}),
                 config.globals.output);
 }
 

@@ -28,6 +28,7 @@ struct ObjectSettings {
   Horizon horizon = Horizon::identity;             // corners whose basis normal lies under their face
   Split split = Split::none;
   int samples = 256;
+  double noise = 0;  // percent of a target's mean; 0: `samples` decide
   int seed = 0;
   double clamp = 0;  // radiance; 0: off
   int dilate = 4;    // texels; [output] in the project file
@@ -82,6 +83,7 @@ struct ReferenceSettings {
 struct OutputSettings {
   enum class Layout { layers, files };
   enum class SaveScene { when_unwrapped, never, always };
+  enum class StandardErrors { when_float, never, always };
 
   std::filesystem::path dir;  // "": not given; `bake` needs it, `inspect` does not
   Layout layout = Layout::layers;
@@ -89,6 +91,7 @@ struct OutputSettings {
   bool frames = false;
   Normalize normalize = Normalize::none;
   bool repair = false;
+  StandardErrors standard_errors = StandardErrors::when_float;  // of a bake, as layers
   SaveScene save_scene = SaveScene::when_unwrapped;
   bool keep_temporary = false;
 };
@@ -101,6 +104,7 @@ struct RunSettings {
   int timeout = 600;              // seconds without progress
   int launch_timeout = 0;         // seconds; 0: no limit
   int retries = 1;
+  std::string time;  // how long a bake may take; "": as long as it needs
 };
 
 struct BakeSettings {

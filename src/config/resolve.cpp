@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/names.h"
+#include "base/progress.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -26,6 +27,9 @@ void check_limits(const ObjectSettings& object, const std::string& where) {
          object.min_resolution, object.max_resolution);
   }
 }
+
+/// Where an error or a time decides how long to bake, and nobody gave a number.
+constexpr int most_samples = 65536;
 
 const std::vector<std::string> rnm{"flat", "rnm0", "rnm1", "rnm2"};
 
@@ -104,17 +108,40 @@ void ResolvedConfig::apply(const ObjectOverride& override_, BakeSettings& settin
   }
 }
 
+/// Whether anybody said how many samples an object gets.
+bool ResolvedConfig::sets_samples(std::string_view name, std::string_view key) const {
+  return provenance("samples") != "default" ||
+         std::ranges::any_of(overrides_, [&](const ObjectOverride& one) {
+           return any_match(one.objects, name, key) &&
+                  std::ranges::any_of(one.values,
+                                      [](const SettingOverride& v) { return v.setting->key == "samples"; });
+         });
+}
+
 ObjectSettings ResolvedConfig::for_object(std::string_view name, std::string_view key) const {
   BakeSettings result = globals;
   for (const ObjectOverride& override_ : overrides_) {
     if (any_match(override_.objects, name, key)) apply(override_, result);
   }
   check_limits(result.object, fmt::format("object '{}'", key));
+  const bool is_open_ended = result.object.noise > 0 || !globals.run.time.empty();
+  if (is_open_ended && !sets_samples(name, key)) result.object.samples = most_samples;
   return result.object;
 }
 
 bool ResolvedConfig::selects(std::string_view name, std::string_view key) const {
   return any_match(globals.scene.objects, name, key) && !any_match(globals.scene.exclude, name, key);
+}
+
+void ResolvedConfig::check_open_end() const {
+  const std::string& time = globals.run.time;
+  if (!time.empty() && !parse_duration(time))
+    fail(ExitCode::usage, "{}: time = '{}' is no length of time; give seconds, or 90s, 10m, 2h",
+         provenance("time"), time);
+  if (globals.bake.recipe == BakingSettings::Recipe::receiver) return;
+  if (!time.empty() || globals.object.noise > 0)
+    fail(ExitCode::usage, "{}: flat-normal-map is baked in one piece; give --samples in place of {}",
+         provenance("recipe"), time.empty() ? "--noise" : "--time");
 }
 
 void ResolvedConfig::check_together() const {
@@ -125,6 +152,7 @@ void ResolvedConfig::check_together() const {
     fail(ExitCode::usage, "basis ({}) and basis_set ({}) both say which directions to bake; give one of them",
          provenance("basis"), provenance("basis_set"));
   }
+  check_open_end();
   const auto& bases = globals.bake.bases;
   if (globals.output.normalize == Normalize::flat && takes_rnm(globals.bake) &&
       std::find(bases.begin(), bases.end(), "flat") == bases.end()) {

@@ -39,6 +39,8 @@ class ResolvedConfig {
   void let_stronger_resolution_win();
   [[nodiscard]] const SettingOverride& given(std::string_view key) const;
   void apply(const ObjectOverride& override_, BakeSettings& settings) const;
+  [[nodiscard]] bool sets_samples(std::string_view name, std::string_view key) const;
+  void check_open_end() const;
   void check_together() const;
 
   std::vector<SettingOverride> values_;

@@ -54,6 +54,9 @@ Spelling spelling(Depth) {
 Spelling spelling(Normalize) {
   return {"none", "flat"};
 }
+Spelling spelling(OutputSettings::StandardErrors) {
+  return {"auto", "never", "always"};
+}
 Spelling spelling(OutputSettings::SaveScene) {
   return {"auto", "never", "always"};
 }
@@ -246,6 +249,12 @@ std::vector<Setting> make_settings_table() {
           .only({Purpose::bake, Purpose::validate}),
       bake("split", &Object::split, "bake each material slot or loose part as a target of its own"),
       bake("samples", &Object::samples, "paths for each texel and basis").range(1, 16'777'216),
+      bake("noise", &Object::noise,
+           "bake until the standard error of an object's texels is so small; samples are then the most")
+          .range(0, 100)
+          .unit("percent of their mean")
+          .empty_means("off")
+          .only({Purpose::bake}),
       bake("bounces", &Bake::bounces,
            "longest path of light after the first hit; the tracer has no limit unless this is given")
           .range(0, 1024),
@@ -294,6 +303,9 @@ std::vector<Setting> make_settings_table() {
           .unit("texels"),
       output("repair", &Output::repair, "replace fireflies, NaN and Inf by their neighbours")
           .only({Purpose::bake, Purpose::reference}),
+      output("stderr", &Output::standard_errors,
+             "layers with the standard error of every texel: with --depth float, never, always")
+          .only({Purpose::bake}),
       output("save_scene", &Output::save_scene,
              "save a copy of the scene with the unwrapped UVs: when there are any, never, always")
           .only({Purpose::bake, Purpose::reference}),
@@ -318,6 +330,9 @@ std::vector<Setting> make_settings_table() {
           .range(0, 31'536'000)
           .unit("seconds")
           .empty_means("no limit"),
+      run("time", &Run::time, "bake the best that fits: 90s, 10m, 2h; samples are then the most")
+          .empty_means("as long as it takes")
+          .only({Purpose::bake}),
       run("retries", &Run::retries, "times that a failed launch is tried again")
           .range(0, 100)
           .only({Purpose::bake, Purpose::validate}),

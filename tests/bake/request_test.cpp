@@ -204,7 +204,7 @@ TEST_F(Requests, GetTheirTilesBackTopRowFirst) {
       pixel[3] = 1;
     }
   }
-  write_floats(folder_.path() / "pixels0.f32", pixels);
+  write_floats(folder_.path() / "pass0-0.f32", pixels);
   const auto rects = read_rects(request.layout, plan_, folder_.path());
   ASSERT_EQ(rects.size(), plan_.rects.size());
   for (std::size_t i = 0; i < rects.size(); ++i) {
@@ -223,9 +223,9 @@ TEST_F(Requests, RefuseShortAndMissingPictures) {
   add_all();
   const BakeRequest request = receiver_request(plan_, plan_.batches[0], 1 << 20, folder_.path());
   const auto read = [&] { (void)read_rects(request.layout, plan_, folder_.path()); };
-  EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("pixels0.f32"), std::string::npos);
+  EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("pass0-0.f32"), std::string::npos);
   const RectSize size = request.layout.atlas.atlases[0];
-  write_floats(folder_.path() / "pixels0.f32",
+  write_floats(folder_.path() / "pass0-0.f32",
                std::vector<float>(std::size_t(size.width) * size.height * 4 - 1));
   EXPECT_NE(error_of(ExitCode::tasks_failed, read).find("is the disk full?"), std::string::npos);
 }

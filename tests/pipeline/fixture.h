@@ -33,8 +33,12 @@ class FakeBlender : public Blender {
  public:
   /// Decides how a launch ends; nothing: well.
   std::function<std::optional<LaunchFailure>(const Baked&)> fault = [](const Baked&) { return std::nullopt; };
+  /// Decides after each pass whether the launch goes on; nothing: it does.
+  std::function<std::optional<LaunchFailure>(const nlohmann::json& pass)> fault_after =
+      [](const nlohmann::json&) { return std::nullopt; };
   bool short_pictures = false;
   std::vector<Baked> launches;
+  std::vector<nlohmann::json> passes;  // of all launches
 
   [[nodiscard]] const BlenderInfo& info() const override { return info_; }
 
@@ -47,7 +51,17 @@ class FakeBlender : public Blender {
     }
     on_progress({"bake", "atlas 1", 1, 2, 0, 0, ""});
     if (auto failure = fault(baked)) return *failure;
-    for (const auto& atlas : launch.request.at("atlases")) write_pixels(launch.folder, atlas);
+    for (const auto& pass : launch.request.at("passes")) {
+      const auto& atlases = launch.request.at("atlases");
+      for (std::size_t i = 0; i < atlases.size(); ++i)
+        write_pixels(launch.folder / pass.at("pixels").at(i).get<std::string>(), atlases.at(i));
+      {
+        const std::lock_guard lock(mutex_);
+        passes.push_back(pass);
+      }
+      on_progress({"bake", "pass", 1, 2, 0, 0, ""});
+      if (auto failure = fault_after(pass)) return *failure;
+    }
     Finished finished;
     finished.result = {
         {"atlases", {{{"prepare_seconds", 0.25}, {"bake_seconds", 0.5}, {"save_seconds", 0.125}}}}};
@@ -71,12 +85,12 @@ class FakeBlender : public Blender {
     return baked;
   }
 
-  void write_pixels(const std::filesystem::path& folder, const nlohmann::json& atlas) const {
+  void write_pixels(const std::filesystem::path& file, const nlohmann::json& atlas) const {
     const std::size_t count = atlas.at("width").get<std::size_t>() * atlas.at("height").get<std::size_t>();
     std::vector<float> pixels(4 * count, 0.5F);
     for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = 1;
     if (short_pictures) pixels.pop_back();
-    std::ofstream(folder / atlas.at("pixels").get<std::string>(), std::ios::binary)
+    std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(pixels.data()), std::streamsize(pixels.size() * sizeof(float)));
   }
 

@@ -1,5 +1,6 @@
 #include "pipeline/bake/bake_run.h"
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/names.h"
 #include "base/object_notes.h"
@@ -96,11 +97,23 @@ bool plan_receivers(const BakeSettings& settings, const BakeSubject& subject, st
   return needs_identity;
 }
 
+/// What an object's pictures depend on that is baked as it is.
+std::string object_content(const BakeSubject& subject, const Target& target, bool correct_bump) {
+  std::string content = fmt::format("{} {} {} {} {} {}", target.key, target.uv_layer, uv_hash(*target.uv),
+                                    target.tangent_layer, target.flip_green, correct_bump);
+  for (const BasisDirection& basis : subject.bases)
+    content += fmt::format(" {} {} {}", basis.direction.x, basis.direction.y, basis.direction.z);
+  for (const std::uint32_t triangle : target.part.triangles) content += fmt::format(" {}", triangle);
+  return hash128_hex(content);
+}
+
 void plan_target(const BakeSettings& settings, const BakeSubject& subject, std::size_t i,
                  const std::vector<LightBall>& lights, PlannedBake& planned, LostDirections& lost) {
   const Target& target = subject.list.targets[i];
   if (!by_receiver(settings)) {
-    add_object_tasks(planned.plan, plan_target(subject.survey, target), task_names(subject.bases),
+    PlanTarget of = plan_target(subject.survey, target);
+    of.content = object_content(subject, target, settings.bake.correct_bump);
+    add_object_tasks(planned.plan, std::move(of), task_names(subject.bases),
                      cycles_settings(settings.bake, subject.list.settings[i]));
     if (!settings.output.frames) return;
   }
@@ -170,11 +183,14 @@ PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, 
 }
 
 /// Requests of the recipe.
-MakeRequest requests(const BakeSettings& settings, const BakeContext& context) {
+BatchRecipe recipe_of(const BakeSettings& settings, const BakeContext& context) {
   if (by_receiver(settings)) return receiver_requests(settings, context.survey, context.plan);
-  return [&](const Batch& batch, int /*jobs*/, const std::filesystem::path& folder) {
+  BatchRecipe recipe;
+  recipe.in_passes = false;
+  recipe.request = [&](const Batch& batch, int /*jobs*/, const std::filesystem::path& folder) {
     return object_request(context, batch, settings.bake.correct_bump, folder);
   };
+  return recipe;
 }
 
 /// The scene with its UVs, and the manifest.
@@ -202,8 +218,8 @@ BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
             blender.version_text);
   BakeCollector collector(context, settings.output, planned.headers);
   BakeOutcome outcome;
-  outcome.timings =
-      run_batches(session, planned.plan, subject.blends.shown, requests(settings, context), collector);
+  outcome.timings = run_batches(session, planned.plan, subject.blends.shown, recipe_of(settings, context),
+                                collector, subject.rules);
   outcome.deliveries = collector.deliveries();
   if (may_be_lit(subject.survey)) warn_of_black(targets, outcome.deliveries);
   write_records(session, subject, planned, outcome);

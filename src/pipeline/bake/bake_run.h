@@ -4,6 +4,7 @@
 #include "blender/blender_session.h"
 #include "encoding/basis_set.h"
 #include "pipeline/dispatch/bake_timings.h"
+#include "pipeline/dispatch/dispatcher.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
 #include "pipeline/scene/make_targets.h"
@@ -27,6 +28,7 @@ struct BakeSubject {
   const std::vector<BasisDirection>& bases;
   SceneBlends blends;             // `shown` is baked, `own` saved with new UVs
   EarlierLightmaps earlier = {};  // stays in the manifest
+  DispatchRules rules = {};       // what was baked before, and how long it may take
 };
 
 /// Bakes all targets for all bases as the session's settings say, into their output folder, and writes the

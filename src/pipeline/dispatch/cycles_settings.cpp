@@ -25,7 +25,9 @@ const char* name_of(BakingSettings::Device device) {
 }  // namespace
 
 CyclesSettings cycles_settings(const BakingSettings& bake, const ObjectSettings& object) {
-  return {object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
+  CyclesSettings cycles{object.samples, bake.bounces, object.seed, object.clamp, name_of(bake.device)};
+  cycles.noise = object.noise / 100;
+  return cycles;
 }
 
 }  // namespace rnmbake

@@ -4,6 +4,9 @@
 #include "base/log.h"
 #include "base/work_progress.h"
 #include "blender/launch_watch.h"
+#include "pipeline/dispatch/batch_work.h"
+#include "pipeline/dispatch/kept_targets.h"
+#include "pipeline/dispatch/launch_batch.h"
 #include "pipeline/dispatch/memory.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
@@ -13,6 +16,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <variant>
@@ -23,8 +27,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Attempt {
-  Batch batch;
+  MissingBatch missing;
+  EarlierPictures earlier;          // of a batch that was divided
+  std::shared_ptr<BatchWork> work;  // from the first try on
   int retries_left = 0;
+  bool was_killed = false;
+
+  [[nodiscard]] const Batch& batch() const { return missing.batch; }
 };
 
 /// Number of hung launches, without one that succeeded, after which the scene counts as the cause and no
@@ -36,37 +45,27 @@ bool is_before_baking(const LaunchFailure& failure) {
   return failure.kind == LaunchFailure::Kind::hung && (failure.phase.empty() || failure.phase == "load");
 }
 
-/// Texels x samples, to which the time of a bake is proportional.
-double work_of(const Batch& batch, const Plan& plan) {
-  double work = 0;
-  for (const std::size_t task : batch.tasks) {
-    for (const std::size_t rect : plan.tasks[task].rects) {
-      const RectSize size = plan.rects[rect].size;
-      work += double(size.width) * size.height * plan.tasks[task].cycles.samples;
-    }
-  }
-  return work;
-}
-
-double total_work(const Plan& plan) {
-  double work = 0;
-  for (const Batch& batch : plan.batches) work += work_of(batch, plan);
-  return work;
-}
-
 class Dispatcher {
  public:
-  Dispatcher(BlenderSession& session, const Plan& plan, BlendPath blend, const MakeRequest& make_request,
-             PictureSink& sink)
+  Dispatcher(BlenderSession& session, const Plan& plan, BlendPath blend, const BatchRecipe& recipe,
+             PictureSink& sink, const DispatchRules& rules)
       : session_(session),
         plan_(plan),
         blend_(std::move(blend)),
-        make_request_(make_request),
+        recipe_(recipe),
         sink_(sink),
-        jobs_(choose_jobs(session.settings(), plan.batches.size())),
-        progress_(total_work(plan)) {
-    for (const Batch& batch : plan.batches) {
-      queue_.push_back({batch, session.settings().run.retries});
+        rules_(rules),
+        kept_(plan, rules.cache, sink),
+        progress_(0) {
+    const auto all_jobs = choose_jobs(session.settings(), plan.batches.size());
+    const std::vector<MissingBatch> missing = kept_.missing([&](const Batch& batch) {
+      return recipe_.most_pixels ? cut(batch, plan_, recipe_.most_pixels(batch, all_jobs))
+                                 : std::vector{batch};
+    });
+    jobs_ = choose_jobs(session.settings(), missing.size());
+    for (const MissingBatch& one : missing) {
+      progress_.leave_out(-work_of(one));
+      queue_.push_back({one, {}, nullptr, session.settings().run.retries});
     }
   }
 
@@ -78,6 +77,8 @@ class Dispatcher {
     watch();
     for (std::thread& worker : workers) worker.join();
     if (error_) std::rethrow_exception(error_);
+    for (const ResultKey& key : used_) rules_.cache.forget(key);
+    kept_.forget_journal();
     timings_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return timings_;
   }
@@ -117,64 +118,87 @@ class Dispatcher {
     return attempt;
   }
 
+  /// Texels x samples, to which the time of a bake is proportional.
+  [[nodiscard]] double work_of(const MissingBatch& missing) const {
+    double work = 0;
+    for (const std::size_t task : missing.batch.tasks) {
+      const int samples = plan_.tasks[task].cycles.samples - missing.done[0] - missing.done[1];
+      for (const std::size_t rect : plan_.tasks[task].rects)
+        work += double(plan_.rects[rect].size.width) * plan_.rects[rect].size.height * samples;
+    }
+    return work;
+  }
+
+  void begin(Attempt& attempt) {
+    const std::filesystem::path folder = session_.new_folder("bake");
+    BatchWork::Rules rules;
+    rules.whole = !recipe_.in_passes;
+    rules.deadline = rules_.deadline;
+    BakeRequest request = recipe_.request(attempt.batch(), jobs_, folder);
+    rules.cost = cost_of(plan_, request.layout, recipe_.scene_triangles);
+    if (attempt.earlier.empty()) attempt.earlier = kept_.earlier(attempt.missing);
+    attempt.work = std::make_shared<BatchWork>(plan_, attempt.batch(), std::move(request), folder, rules,
+                                               std::exchange(attempt.earlier, {}), rules_.cache);
+    attempt.work->take_kept();
+    progress_.leave_out(attempt.work->kept());
+  }
+
   void run_attempt(Attempt attempt) {
-    drop_settled(attempt.batch);
-    if (attempt.batch.tasks.empty() || given_up(attempt.batch)) return;
-    Launch launch;
-    launch.entry = "bake_entry.py";
-    launch.scene = blend_;
-    launch.folder = session_.new_folder("bake");
-    launch.threads = session_.threads(jobs_);
-    BakeRequest request = make_request_(attempt.batch, jobs_, launch.folder);
-    launch.request = std::move(request.json);
-    launch.request.update(scene_request(session_, blend_.path()));
-    const LaunchOutcome outcome = session_.blender().run(
-        launch, session_.limits(), [&](const ProgressEvent& event) { show(attempt.batch, event); });
-    if (const auto* failure = std::get_if<LaunchFailure>(&outcome)) {
-      recover(std::move(attempt), *failure);
-    } else if (auto rects = rects_of(request.layout, launch.folder); auto* lost = std::get_if<1>(&rects)) {
-      recover(std::move(attempt), *lost);
-    } else {
-      sink_.take(attempt.batch, request.layout, std::get<0>(std::move(rects)));
-      count(attempt.batch, std::get<Finished>(outcome));
+    if (is_settled(attempt.batch()) || given_up(attempt.batch())) return;
+    if (!attempt.work) begin(attempt);
+    BatchWork& work = *attempt.work;
+    if (!work.is_complete()) {
+      const std::size_t passes_before = work.passes_done();
+      const double before = work.done();
+      const LaunchOutcome outcome = launch_batch(
+          session_, blend_, jobs_, work, [&](const ProgressEvent& event) { show(work, before, event); });
+      const auto* failure = std::get_if<LaunchFailure>(&outcome);
+      if (failure == nullptr) count(std::get<Finished>(outcome));
+      if (!work.is_complete()) {
+        const LaunchFailure cause = failure != nullptr ? *failure : no_picture(work, plan_);
+        return recover(std::move(attempt), cause, work.passes_done() > passes_before);
+      }
+      if (failure != nullptr) note_failure(*failure);  // after the last picture
     }
-    if (!session_.settings().output.keep_temporary) fs::remove_all(launch.folder);
+    deliver(work);
   }
 
-  /// Pictures of a launch; a failure where some are missing or short, whatever its result says. A smaller
-  /// launch may succeed.
-  std::variant<std::vector<FloatImage>, LaunchFailure> rects_of(const BatchLayout& layout,
-                                                                const fs::path& folder) const {
-    try {
-      return read_rects(layout, plan_, folder);
-    } catch (const Error& error) {
-      LaunchFailure failure;
-      failure.message = error.what();
-      return failure;
-    }
+  void deliver(BatchWork& work) {
+    std::vector<BakedPicture> pictures = work.take_pictures();
+    kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
+    sink_.take(work.batch(), work.layout(), std::move(pictures));
+    progress_.finish(work.batch().tasks.front(), work.done() - work.kept());
+    if (!session_.settings().output.keep_temporary) fs::remove_all(work.folder());
+    const std::lock_guard lock(mutex_);
+    for (ResultKey& key : work.used_keys()) used_.push_back(std::move(key));
   }
 
-  /// Removes tasks of targets that were given up.
-  void drop_settled(Batch& batch) const {
-    std::erase_if(batch.tasks, [&](std::size_t task) { return sink_.is_settled(plan_.tasks[task].target); });
+  [[nodiscard]] bool is_settled(const Batch& batch) const {
+    return std::ranges::all_of(batch.tasks,
+                               [&](std::size_t task) { return sink_.is_settled(plan_.tasks[task].target); });
   }
 
-  void recover(Attempt attempt, const LaunchFailure& failure) {
-    progress_.finish(attempt.batch.tasks.front(), 0);
+  void recover(Attempt attempt, const LaunchFailure& failure, bool got_on) {
+    const Batch& batch = attempt.batch();
+    progress_.finish(batch.tasks.front(), 0);
     if (is_hopeless(failure)) throw_failure(failure);
     if (!failure.details.empty()) log::debug("{}", failure.details);
     note_failure(failure);
-    if (given_up(attempt.batch)) return;
-    if (attempt.batch.tasks.size() > 1 && !is_before_baking(failure)) return divide(attempt, failure);
-    const BakeTask& task = plan_.tasks[attempt.batch.tasks.front()];
+    if (given_up(batch)) return;
     const bool may_differ =
         failure.kind != LaunchFailure::Kind::refused && failure.kind != LaunchFailure::Kind::outlasted;
-    if (may_differ && attempt.retries_left > 0) {
+    const bool first_kill = failure.kind == LaunchFailure::Kind::killed && !attempt.was_killed;
+    if (batch.tasks.size() > 1 && !is_before_baking(failure) && !(may_differ && got_on) && !first_kill)
+      return divide(attempt, failure);
+    const BakeTask& task = plan_.tasks[batch.tasks.front()];
+    const bool free_of_charge = may_differ && (got_on || (first_kill && batch.tasks.size() > 1));
+    if (free_of_charge || (may_differ && attempt.retries_left > 0)) {
       log::warn("{} ({}): {}; trying again", plan_.targets[task.target].key, task.name, describe(failure));
-      enqueue({std::move(attempt.batch), attempt.retries_left - 1});
-      return;
+      if (!free_of_charge) --attempt.retries_left;
+      attempt.was_killed |= failure.kind == LaunchFailure::Kind::killed;
+      return enqueue(std::move(attempt));
     }
-    give_up(attempt.batch, fmt::format("{}: {}", task.name, describe(failure)));
+    give_up(batch, fmt::format("{}: {}", task.name, describe(failure)));
   }
 
   /// Whether the failure (a stop, a full disk, a missing device) would end every other launch, too.
@@ -185,8 +209,11 @@ class Dispatcher {
   }
 
   void divide(const Attempt& attempt, const LaunchFailure& failure) {
-    log::warn("{}; splitting {} bakes to find the offender", describe(failure), attempt.batch.tasks.size());
-    for (Batch& half : split(attempt.batch, plan_)) enqueue({std::move(half), attempt.retries_left});
+    const Batch& batch = attempt.batch();
+    log::warn("{}; splitting {} bakes to find the offender", describe(failure), batch.tasks.size());
+    const EarlierPictures earlier = attempt.work->so_far();
+    for (Batch& half : split(batch, plan_))
+      enqueue({{std::move(half), attempt.missing.done}, earlier, nullptr, attempt.retries_left});
   }
 
   void note_failure(const LaunchFailure& failure) {
@@ -220,7 +247,7 @@ class Dispatcher {
     changed_.notify_all();
   }
 
-  void count(const Batch& batch, const Finished& finished) {
+  void count(const Finished& finished) {
     const std::lock_guard lock(mutex_);
     ++timings_.launches;
     timings_.launch_seconds += finished.wall_seconds;
@@ -232,20 +259,23 @@ class Dispatcher {
         timings_.save_seconds += lap.value("save_seconds", 0.0);
       }
     }
-    progress_.finish(batch.tasks.front(), work_of(batch, plan_));
   }
 
-  void show(const Batch& batch, const ProgressEvent& event) {
-    const double done = event.total > 0 ? work_of(batch, plan_) * event.done / event.total : 0;
-    progress_.advance(batch.tasks.front(), done, in_words(event));
+  /// `before`: work that was done when the launch began.
+  void show(const BatchWork& work, double before, const ProgressEvent& event) {
+    const double share = event.total > 0 ? event.done / event.total : 0;
+    const double done = std::max(work.done(), before + (work.work() - before) * share);
+    progress_.advance(work.batch().tasks.front(), done - work.kept(), in_words(event));
   }
 
   BlenderSession& session_;
   const Plan& plan_;
   BlendPath blend_;
-  const MakeRequest& make_request_;
+  const BatchRecipe& recipe_;
   PictureSink& sink_;
-  int jobs_;
+  const DispatchRules& rules_;
+  KeptTargets kept_;
+  int jobs_ = 1;
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -254,7 +284,8 @@ class Dispatcher {
   std::exception_ptr error_;
   BakeTimings timings_;
   int hangs_ = 0;
-  std::string verdict_;  // on the scene, where that is what hangs Blender
+  std::string verdict_;          // on the scene, where that is what hangs Blender
+  std::vector<ResultKey> used_;  // of passes
   WorkProgress progress_;
 };
 
@@ -266,15 +297,21 @@ int choose_jobs(const BakeSettings& settings, std::size_t batches) {
   return std::clamp(static_cast<int>(batches), 1, wanted);
 }
 
-MakeRequest receiver_requests(const BakeSettings& settings, const SceneSurvey& survey, const Plan& plan) {
-  return [&](const Batch& batch, int jobs, const fs::path& folder) {
+BatchRecipe receiver_requests(const BakeSettings& settings, const SceneSurvey& survey, const Plan& plan) {
+  BatchRecipe recipe;
+  recipe.most_pixels = [&](const Batch& batch, int jobs) {
+    return atlas_pixels_for(settings, survey, plan, batch, jobs);
+  };
+  recipe.request = [&](const Batch& batch, int jobs, const fs::path& folder) {
     return receiver_request(plan, batch, atlas_pixels_for(settings, survey, plan, batch, jobs), folder);
   };
+  recipe.scene_triangles = scene_triangles(survey);
+  return recipe;
 }
 
 BakeTimings run_batches(BlenderSession& session, const Plan& plan, const BlendPath& blend,
-                        const MakeRequest& make_request, PictureSink& sink) {
-  return Dispatcher(session, plan, blend, make_request, sink).run();
+                        const BatchRecipe& recipe, PictureSink& sink, const DispatchRules& rules) {
+  return Dispatcher(session, plan, blend, recipe, sink, rules).run();
 }
 
 }  // namespace rnmbake

@@ -7,9 +7,10 @@
 namespace rnmbake {
 namespace {
 
-/// Texels x samples of one bake call: minutes on two cores, which is what a crash costs. The same on every
-/// machine, so that pictures are.
-constexpr std::int64_t work_per_call = std::int64_t(1) << 27;
+/// Texels x samples of a pass that has few samples: minutes on two cores, which is what a crash costs. The
+/// same on every machine, so that pictures are.
+constexpr std::int64_t work_per_pass = std::int64_t(1) << 27;
+constexpr std::int64_t few_samples = 16;
 
 std::int64_t available_memory() {
   std::ifstream meminfo("/proc/meminfo");
@@ -21,13 +22,13 @@ std::int64_t available_memory() {
   return std::int64_t(4) << 30;  // unknown: what a small machine has
 }
 
+}  // namespace
+
 std::int64_t scene_triangles(const SceneSurvey& survey) {
   std::int64_t count = 0;
   for (const Mesh& mesh : survey.meshes) count += static_cast<std::int64_t>(mesh.triangles());
   return count;
 }
-
-}  // namespace
 
 std::int64_t memory_budget(const BakeSettings& settings) {
   if (settings.bake.memory_limit > 0) return std::int64_t(settings.bake.memory_limit) << 20;
@@ -44,7 +45,7 @@ std::int64_t atlas_pixels_for(const BakeSettings& settings, const SceneSurvey& s
   }
   const std::int64_t samples = plan.tasks[batch.tasks.front()].cycles.samples;
   const std::int64_t patience =
-      std::max<std::int64_t>(work_per_call / std::max<std::int64_t>(samples, 1), 1 << 18);
+      std::max<std::int64_t>(work_per_pass / std::clamp<std::int64_t>(samples, 1, few_samples), 1 << 18);
   const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);
   return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles(survey), receiver_corners / 3);
 }

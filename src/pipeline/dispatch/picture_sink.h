@@ -1,9 +1,9 @@
 // pipeline/dispatch/picture_sink.h - where the pictures of launches go.
 #pragma once
 
+#include "bake/baked_picture.h"
 #include "bake/plan.h"
 #include "bake/request.h"
-#include "image/float_image.h"
 
 #include <cstddef>
 #include <string>
@@ -20,9 +20,9 @@ class PictureSink {
   PictureSink& operator=(const PictureSink&) = delete;
   virtual ~PictureSink() = default;
 
-  /// Takes the pictures of a batch, in the layout's order: RGBA, E/pi, row 0 on top, alpha = coverage. What
-  /// it throws ends the run.
-  virtual void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) = 0;
+  /// Takes the pictures of a batch with all of their passes, in the layout's order. What it throws ends the
+  /// run.
+  virtual void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) = 0;
 
   /// Gives a target up; later pictures of it are discarded.
   virtual void give_up(std::size_t target, const std::string& reason) = 0;

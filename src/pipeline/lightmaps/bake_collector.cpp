@@ -3,7 +3,9 @@
 #include "bake/assemble.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "lightmap/half_errors.h"
 
+#include <array>
 #include <utility>
 
 namespace rnmbake {
@@ -18,7 +20,7 @@ BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& o
   for (const BakeTask& task : context.plan.tasks) ++pending_[task.target].missing;
 }
 
-void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) {
+void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) {
   std::vector<std::pair<std::size_t, PendingTarget>> complete;
   {
     const std::lock_guard lock(mutex_);
@@ -29,8 +31,8 @@ void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vec
     }
     for (const std::size_t task : batch.tasks) {
       const std::size_t target = context_.plan.tasks[task].target;
-      if (--pending_[target].missing == 0 && !deliveries_[target])
-        complete.emplace_back(target, std::exchange(pending_[target], {}));
+      if (deliveries_[target]) continue;
+      if (--pending_[target].missing == 0) complete.emplace_back(target, std::exchange(pending_[target], {}));
     }
   }
   for (auto& [target, pending] : complete) {
@@ -55,17 +57,33 @@ bool BakeCollector::is_settled(std::size_t target) const {
 
 Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending) const {
   const Target& target = context_.targets[target_index];
-  const LightmapHeader& header = headers_[target_index];
   std::vector<const AtlasRect*> rects;
-  std::vector<FloatImage> pictures;
+  std::vector<FloatImage> means;
+  std::array<std::vector<FloatImage>, 2> halves;
+  bool has_error = true;
+  const BakedPicture& any = pending.pictures.begin()->second;
+  const double variance_factor = any.variance_factor();
+  LightmapHeader header = headers_[target_index];
+  header.metadata.samples = any.all_samples();
   for (auto& [rect, picture] : pending.pictures) {
     rects.push_back(&context_.plan.rects[rect]);
-    pictures.push_back(std::move(picture));
+    means.push_back(picture.mean());
+    has_error = has_error && picture.has_error();
+    for (const std::size_t half : {0U, 1U}) halves[half].push_back(std::move(picture.halves[half]));
   }
+  const auto assembled = [&](const std::vector<FloatImage>& pictures, bool frames) {
+    return assemble(target, rects, pictures, context_.bases, header.surface.get(), frames);
+  };
   try {
-    const TargetBakes bakes =
-        assemble(target, rects, pictures, context_.bases, header.surface.get(), output_.frames);
-    return deliver_lightmap(bakes, header, output_);
+    const TargetBakes bakes = assembled(means, output_.frames);
+    if (!has_error) return deliver_lightmap(bakes, header, output_);
+    HalfErrors errors =
+        half_errors(assembled(halves[0], false), assembled(halves[1], false), variance_factor);
+    ExtraLayers extra;
+    if (has_error_layers(output_)) extra.standard_errors = std::move(errors.layers);
+    Delivered delivered = deliver_lightmap(bakes, header, output_, std::move(extra));
+    delivered.standard_error = errors.relative;
+    return delivered;
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
     log::error("{}", error.what());

@@ -23,15 +23,15 @@ class BakeCollector : public PictureSink {
                 std::vector<LightmapHeader> headers);
 
   /// Writes each target that became complete.
-  void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) override;
+  void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) override;
   void give_up(std::size_t target, const std::string& reason) override;
   [[nodiscard]] bool is_settled(std::size_t target) const override;
   [[nodiscard]] const std::vector<Delivery>& deliveries() const { return deliveries_; }
 
  private:
   struct PendingTarget {
-    std::size_t missing = 0;                     // tasks
-    std::map<std::size_t, FloatImage> pictures;  // by atlas rectangle
+    std::size_t missing = 0;                       // tasks
+    std::map<std::size_t, BakedPicture> pictures;  // by atlas rectangle
   };
   [[nodiscard]] Delivery finish(std::size_t target, PendingTarget&& pending) const;
 

@@ -79,6 +79,12 @@ void warn_of_black(const std::vector<Target>& targets, const std::vector<Deliver
       first_names(names), names.size(), deliveries.size());
 }
 
+bool has_error_layers(const OutputSettings& output) {
+  using When = OutputSettings::StandardErrors;
+  return output.standard_errors == When::always ||
+         (output.standard_errors == When::when_float && output.depth == Depth::full);
+}
+
 void prepare_output(const OutputSettings& output) {
   if (output.dir.empty())
     fail(ExitCode::usage, "no output folder: pass -o DIR, or set dir in [output] of the project file");
@@ -97,7 +103,7 @@ Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& heade
   for (const BasisBake& basis : bakes.bases) metadata.bases.push_back({basis.name, basis.direction});
   metadata.repaired = merged.counts.repaired > 0;
   write_metadata(metadata, merged.image);
-  return Delivered{write(output, header.stem, std::move(merged.image)), merged.counts};
+  return Delivered{write(output, header.stem, std::move(merged.image)), merged.counts, metadata.samples};
 }
 
 }  // namespace rnmbake

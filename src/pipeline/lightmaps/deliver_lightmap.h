@@ -22,6 +22,8 @@ namespace rnmbake {
 struct Delivered {
   std::vector<std::string> files;  // names within the output folder
   MergeCounts counts;
+  int samples = 0;            // that it has
+  double standard_error = 0;  // of its texels over their mean (lightmap/half_errors.h); 0: not known
 };
 struct NotDelivered {
   std::string reason;
@@ -42,6 +44,9 @@ struct LightmapHeader {
   int dilate = 4;
   std::shared_ptr<const Surface> surface;  // where the identity or the frames need it
 };
+
+/// Whether a bake's maps get a layer of standard errors beside them.
+[[nodiscard]] bool has_error_layers(const OutputSettings& output);
 
 /// Makes the folder and finds out that nothing can be written there before hours of work. Throws Error(usage)
 /// where none is set, Error(io).

@@ -50,6 +50,10 @@ json to_json(const BakeTimings& timings) {
 
 void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size_t index, json& entry) {
   const LightmapMetadata& metadata = input.headers[index].metadata;
+  const auto& delivery = input.deliveries[index];
+  const auto* delivered = delivery ? std::get_if<Delivered>(&*delivery) : nullptr;
+  if (delivered != nullptr && delivered->standard_error > 0)
+    entry["standard_error"] = delivered->standard_error;
   entry["horizon"] = to_json(bake.horizons[index], metadata.horizon);
   entry["receiver_height"] = bake.heights[index];
 }
@@ -96,6 +100,7 @@ json describe_object(const ManifestInput& input, std::size_t index) {
   if (const auto* delivered = delivery ? std::get_if<Delivered>(&*delivery) : nullptr) {
     entry["status"] = "baked";
     entry["files"] = delivered->files;
+    entry["samples"] = delivered->samples;
     entry["texels"] = to_json(delivered->counts);
     entry["coverage"] = double(delivered->counts.covered_texels) / (double(target.width) * target.height);
   } else {

@@ -22,16 +22,17 @@ ProbeCollector::ProbeCollector(const Plan& plan, const std::vector<ProbeBlock>& 
   holed_.assign(positions, false);
 }
 
-void ProbeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) {
+void ProbeCollector::take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) {
   const std::lock_guard lock(mutex_);
   std::size_t next = 0;
   for (const std::size_t index : batch.tasks) {
     const BakeTask& task = plan_.tasks[index];
     Block& block = blocks_[task.target];
+    const bool is_wanted = !block.given_up && block.missing > 0;
     for (std::size_t i = 0; i < task.rects.size(); ++i, ++next) {
-      if (!block.given_up) add(plan_.rects[layout.rects[next]], pictures[next], sign_of(task));
+      if (is_wanted) add(plan_.rects[layout.rects[next]], pictures[next].mean(), sign_of(task));
     }
-    --block.missing;
+    if (is_wanted) --block.missing;
   }
 }
 

@@ -30,7 +30,7 @@ class ProbeCollector : public PictureSink {
   ProbeCollector(const Plan& plan, const std::vector<ProbeBlock>& blocks, std::vector<ProbeTerm> terms,
                  std::size_t directions);
 
-  void take(const Batch& batch, const BatchLayout& layout, std::vector<FloatImage> pictures) override;
+  void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) override;
   void give_up(std::size_t target, const std::string& reason) override;
   [[nodiscard]] bool is_settled(std::size_t target) const override;
 

@@ -14,13 +14,13 @@ namespace rnmbake {
 namespace {
 
 /// Textures for every tile of a dispatch: `value` for the first basis, twice that for the second, ...
-std::vector<FloatImage> pictures_of(const Plan& plan, const BatchLayout& layout, float value = 0.5F) {
-  std::vector<FloatImage> pictures;
+std::vector<BakedPicture> pictures_of(const Plan& plan, const BatchLayout& layout, float value = 0.5F) {
+  std::vector<BakedPicture> pictures;
   for (const std::size_t rect : layout.rects) {
     FloatImage picture(plan.rects[rect].size.width, plan.rects[rect].size.height, 4);
     std::fill(picture.data().begin(), picture.data().end(), value * float(plan.rects[rect].pass.basis + 1));
     for (std::size_t i = 3; i < picture.data().size(); i += 4) picture.data()[i] = 1;
-    pictures.push_back(std::move(picture));
+    pictures.emplace_back().add(0, std::move(picture), 256);
   }
   return pictures;
 }
@@ -129,7 +129,7 @@ TEST(BakeCollector, SaysInTheHeaderThatTexelsWereRepaired) {
     const Batch batch{{0, 1, 2, 3}};
     const BatchLayout layout = layout_of(d.scene.plan(), batch);
     auto pictures = pictures_of(d.scene.plan(), layout);
-    pictures[2].texel(4, 4)[0] = std::numeric_limits<float>::quiet_NaN();
+    pictures[2].halves[0].texel(4, 4)[0] = std::numeric_limits<float>::quiet_NaN();
     d.collector.take(batch, layout, std::move(pictures));
     EXPECT_EQ(read_metadata(d.read("object0.exr"), "object0.exr").repaired, repair);
     EXPECT_EQ(std::get<Delivered>(*d.collector.deliveries()[0]).counts.repaired, repair ? 1U : 0U);
@@ -174,7 +174,7 @@ TEST(BakeCollector, GivesUpATargetWithoutATexelAndGoesOn) {
   const Batch batch{{0, 1, 2, 3, 4, 5, 6, 7}};
   const BatchLayout layout = layout_of(d.scene.plan(), batch);
   auto pictures = pictures_of(d.scene.plan(), layout);
-  for (std::size_t i = 0; i < 4; ++i) std::fill(pictures[i].data().begin(), pictures[i].data().end(), 0.0F);
+  for (std::size_t i = 0; i < 4; ++i) std::ranges::fill(pictures[i].halves[0].data(), 0.0F);
   d.collector.take(batch, layout, std::move(pictures));
   EXPECT_NE(reason_of(d.collector, 0).find("no texel of 'object0'"), std::string::npos);
   EXPECT_TRUE(is_delivered(d.collector, 1));

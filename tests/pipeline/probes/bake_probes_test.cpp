@@ -34,10 +34,14 @@ class LitBlender : public Blender {
                     const std::function<void(const ProgressEvent&)>& /*on_progress*/) override {
     const std::lock_guard lock(mutex_);
     requests.push_back(launch.request);
-    for (const auto& atlas : launch.request.at("atlases")) {
-      if (!bake(launch.folder, launch.request.at("cycles"), atlas)) {
-        ++failed;
-        return failure(LaunchFailure::Kind::crashed, "Blender crashed (SIGSEGV)");
+    for (const auto& pass : launch.request.at("passes")) {
+      const auto& atlases = launch.request.at("atlases");
+      for (std::size_t i = 0; i < atlases.size(); ++i) {
+        const fs::path file = launch.folder / pass.at("pixels").at(i).get<std::string>();
+        if (!bake(launch.folder, launch.request.at("cycles"), atlases.at(i), file)) {
+          ++failed;
+          return failure(LaunchFailure::Kind::crashed, "Blender crashed (SIGSEGV)");
+        }
       }
     }
     return Finished{};
@@ -45,7 +49,8 @@ class LitBlender : public Blender {
 
  private:
   /// False where a receiver is one that Blender fails at.
-  bool bake(const fs::path& folder, const nlohmann::json& cycles, const nlohmann::json& atlas) const {
+  bool bake(const fs::path& folder, const nlohmann::json& cycles, const nlohmann::json& atlas,
+            const fs::path& file) const {
     const std::size_t width = atlas.at("width"), height = atlas.at("height");
     EXPECT_EQ(atlas.at("groups").size(), 1U);
     const std::size_t corners = atlas.at("groups").at(0).at("corners");
@@ -67,7 +72,7 @@ class LitBlender : public Blender {
       std::fill_n(pixel, 3, has_no_number(x) ? std::numeric_limits<float>::quiet_NaN() : float(value));
       pixel[3] = 1;
     }
-    std::ofstream(folder / atlas.at("pixels").get<std::string>(), std::ios::binary)
+    std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(pixels.data()), std::streamsize(pixels.size() * sizeof(float)));
     return true;
   }
