@@ -9,10 +9,12 @@
 #include "cli/bases/basis_file.h"
 #include "cli/settings_flags.h"
 #include "pipeline/bake/bake_run.h"
+#include "pipeline/lightmaps/last_run.h"
 #include "pipeline/scene/scene_key.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
+#include <iostream>
 #include <memory>
 #include <utility>
 
@@ -40,22 +42,57 @@ std::optional<double> deadline_of(const RunSettings& run, double started) {
   return seconds ? std::optional(started + *seconds) : std::nullopt;
 }
 
-int bake(const ResolvedConfig& config) {
+struct BakeFlags {
+  bool why = false, dry_run = false, force = false;
+};
+
+/// Says what made the run necessary; with --why all of it.
+void say_why(const Reasons& reasons, bool all) {
+  if (reasons.empty()) return;
+  if (!all) {
+    const std::string more =
+        reasons.size() > 1 ? fmt::format(" (and {} more; --why lists them)", reasons.size() - 1) : "";
+    log::info("because {}{}", reasons.front(), more);
+    return;
+  }
+  for (const Reasons::value_type& reason : reasons) log::info("because {}", reason);
+}
+
+int show_plan(const std::vector<BakePreview>& targets) {
+  for (const BakePreview& one : targets)
+    std::cout << printable(one.key)
+              << (one.is_kept ? ": baked before" : fmt::format(": {} samples to bake", one.samples)) << "\n";
+  return static_cast<int>(ExitCode::ok);
+}
+
+int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   const double started = steady_clock().now();
+  const OutputSettings& output = config.globals.output;
+  if (output.dir.empty()) prepare_output(output);  // throws
+  const LastRun last(config, "bake");
+  if (last.reasons().empty() && !flags.force) {
+    log::info("nothing to do: {} is up to date", output.dir.string());
+    return static_cast<int>(ExitCode::ok);
+  }
+  say_why(last.reasons(), flags.why);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
-  prepare_output(config.globals.output);
+  if (!flags.dry_run) prepare_output(output);
   const SurveyResult scene = survey_scene(session);
+  say_why(last.scene_changes(scene.survey.digest), flags.why);
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
   Store store("", 0);
   const DispatchRules rules{{store, scene_key(session, scene.survey)},
                             deadline_of(config.globals.run, started)};
-  return report(run_bake(session, {scene.survey, list, bases, scene.blends, std::move(earlier), rules}),
-                config.globals.output);
+  const BakeSubject subject{scene.survey, list, bases, scene.blends, std::move(earlier), rules};
+  if (flags.dry_run) return show_plan(preview_bake(session, subject));
+  const int code = report(run_bake(session, subject), output);
+  if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey);
+  return code;
 }
 
 }  // namespace
@@ -63,11 +100,15 @@ int bake(const ResolvedConfig& config) {
 std::function<int()> add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bake a scene into directional lightmaps");
   auto flags = std::make_shared<SettingsFlags>(*command);
-  return [flags] {
+  auto more = std::make_shared<BakeFlags>();
+  command->add_flag("--why", more->why, "list all that made the bake necessary");
+  command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");
+  command->add_flag("--force", more->force, "look for changes in the scene even where no file changed");
+  return [flags, more] {
     const auto config = flags->resolve();
     if (!config) return static_cast<int>(ExitCode::ok);
     StopRequest::install();
-    return bake(*config);
+    return bake(*config, *more);
   };
 }
 

@@ -207,6 +207,17 @@ void write_records(BlenderSession& session, const BakeSubject& subject, const Pl
 
 }  // namespace
 
+std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject& subject) {
+  const PlannedBake planned = plan_bake(session.settings(), subject, session.blender().info());
+  std::vector<BakePreview> all;
+  for (const PlannedTarget& target : planned_targets(planned.plan)) {
+    const PassCache& cache = subject.rules.cache;
+    const bool is_kept = cache.is_on() && cache.has(cache.key_of(target));
+    all.push_back({planned.plan.targets[target.target].key, is_kept, target.samples()});
+  }
+  return all;
+}
+
 BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
   const BakeSettings& settings = session.settings();
   const std::vector<Target>& targets = subject.list.targets;

@@ -11,6 +11,7 @@
 #include "pipeline/scene/scene_survey.h"
 #include "scene/survey.h"
 
+#include <string>
 #include <vector>
 
 namespace rnmbake {
@@ -35,5 +36,15 @@ struct BakeSubject {
 /// scene with its UVs and the manifest. What fails is logged and in the manifest. Samples, seed and the like
 /// come from the list's own settings. Throws Interrupted, and Error where going on makes no sense.
 [[nodiscard]] BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject);
+
+/// What a bake would do with a target.
+struct BakePreview {
+  std::string key;
+  bool is_kept = false;  // all of it was baked before
+  int samples = 0;       // wanted
+};
+
+/// Looks for what was baked before; nothing is baked or written.
+[[nodiscard]] std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject& subject);
 
 }  // namespace rnmbake

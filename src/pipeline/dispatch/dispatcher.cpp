@@ -153,7 +153,7 @@ class Dispatcher {
       const LaunchOutcome outcome = launch_batch(
           session_, blend_, jobs_, work, [&](const ProgressEvent& event) { show(work, before, event); });
       const auto* failure = std::get_if<LaunchFailure>(&outcome);
-      if (failure == nullptr) count(std::get<Finished>(outcome));
+      if (failure == nullptr && work.is_complete()) count(std::get<Finished>(outcome));
       if (!work.is_complete()) {
         const LaunchFailure cause = failure != nullptr ? *failure : no_picture(work, plan_);
         return recover(std::move(attempt), cause, work.passes_done() > passes_before);

@@ -1,7 +1,5 @@
 #include "pipeline/scene/scene_key.h"
 
-#include "base/hash.h"
-#include "base/read_file.h"
 #include "blender/scripts.h"
 
 namespace rnmbake {
@@ -11,8 +9,7 @@ ResultKey scene_key(const BlenderSession& session, const SceneSurvey& survey) {
   const BlenderInfo& blender = session.blender().info();
   const std::filesystem::path& scripts = settings.run.scripts;
   KeyMaker key;
-  (void)survey;
-  key.add("content", hash128_hex(read_data(settings.scene.file)));
+  key.add("content", survey.digest.hash());
   key.add("materials", std::int64_t(settings.scene.materials));
   key.add("blender", blender.version_text).add("build", blender.build);
   key.add("scripts", scripts_hash(scripts.empty() ? std::nullopt : std::optional(scripts)));

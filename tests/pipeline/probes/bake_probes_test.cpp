@@ -195,7 +195,9 @@ TEST(BakeProbes, AnAtlasThatIsLimitedTakesSeveral) {
   ProbeRun bake(2500);
   bake.config.globals.bake.atlas_limit = 5000;
   const BakedProbes baked = bake.run();
-  EXPECT_GT(bake.blender.requests[0].at("atlases").size(), 6U);
+  std::size_t atlases = 0;
+  for (const auto& request : bake.blender.requests) atlases += request.at("atlases").size();
+  EXPECT_GT(atlases, 6U);
   for (std::size_t i = 0; i < 2500; ++i) ProbeRun::expect(baked, i, true, true, true);
 }
 

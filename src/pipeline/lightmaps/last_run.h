@@ -1,0 +1,41 @@
+// pipeline/lightmaps/last_run.h - whether the last run into an output folder was this very one.
+#pragma once
+
+#include "config/resolve.h"
+#include "jobs/run_record.h"
+#include "scene/scene_digest.h"
+#include "scene/survey.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// Compares settings, the program, Blender, and every file that was read or written, by size and time, and
+/// by content where those differ. Starts no Blender.
+class LastRun {
+ public:
+  /// `command`: "bake", "reference".
+  LastRun(const ResolvedConfig& config, std::string command);
+
+  /// Why it has to be run; empty: it need not be.
+  [[nodiscard]] const Reasons& reasons() const { return reasons_; }
+
+  /// What of the scene is not as it was in that run, once it is surveyed; empty where nothing is known.
+  [[nodiscard]] Reasons scene_changes(const SceneDigest& now) const;
+
+  /// Keeps this run, all of whose objects were delivered, for the next one.
+  void keep(const SceneSurvey& survey) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path record_file() const;
+  [[nodiscard]] std::filesystem::path digest_file() const;
+
+  const ResolvedConfig& config_;
+  std::string settings_;
+  Reasons reasons_;
+};
+
+}  // namespace rnmbake
