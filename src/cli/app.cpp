@@ -6,6 +6,7 @@
 #include "base/version.h"
 #include "blender/blender_session.h"
 #include "cli/bake.h"
+#include "cli/cache.h"
 #include "cli/compare.h"
 #include "cli/convert.h"
 #include "cli/decode.h"
@@ -139,6 +140,13 @@ constexpr const char* about_shaders =
     "ending, and functions with the names that its materials have. --engine blender starts Blender and\n"
     "writes a .blend of groups of nodes, one for each encoding.";
 
+constexpr const char* about_cache =
+    "\n\nResults of earlier runs that later ones need not make again lie in one folder, under the hash of "
+    "all\n"
+    "that they were made from: they never grow stale, and deleting any of them costs time alone. --cache, "
+    "the\n"
+    "variable RNMBAKE_CACHE or `cache` in [run] of a project file name the folder, --cache-limit its size.";
+
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
     "the\n"
@@ -169,6 +177,7 @@ const std::vector<Command>& commands() {
       {"ssbump", add_ssbump_command, about_ssbump},
       {"nms", add_nms_command, about_nms},
       {"shaders", add_shaders_command, about_shaders},
+      {"cache", add_cache_command, about_cache},
   };
   return all;
 }

@@ -10,6 +10,7 @@
 #include "cli/settings_flags.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/lightmaps/last_run.h"
+#include "pipeline/run/result_store.h"
 #include "pipeline/scene/scene_key.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
@@ -68,7 +69,7 @@ int show_plan(const std::vector<BakePreview>& targets) {
 int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   const double started = steady_clock().now();
   const OutputSettings& output = config.globals.output;
-  if (output.dir.empty()) prepare_output(output);  // throws
+  if (output.dir.empty()) (void)prepare_output(output, config.globals.run);  // throws
   const LastRun last(config, "bake");
   if (last.reasons().empty() && !flags.force) {
     log::info("nothing to do: {} is up to date", output.dir.string());
@@ -79,13 +80,14 @@ int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
-  if (!flags.dry_run) prepare_output(output);
+  std::optional<FolderLock> lock;
+  if (!flags.dry_run) lock.emplace(prepare_output(output, config.globals.run));
   const SurveyResult scene = survey_scene(session);
   say_why(last.scene_changes(scene.survey.digest), flags.why);
   check_light(config, scene.survey);
   const TargetList list = make_targets(config, scene.survey);
   EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
-  Store store("", 0);
+  Store store = open_store(config.globals);
   const DispatchRules rules{{store, scene_key(session, scene.survey)},
                             deadline_of(config.globals.run, started)};
   const BakeSubject subject{scene.survey, list, bases, scene.blends, std::move(earlier), rules};

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "pipeline/compare/compare.h"
+#include "pipeline/run/hold_folder.h"
 #include "report/thresholds.h"
 #include "report/write.h"
 
@@ -70,6 +71,7 @@ int run_compare(CompareFlags options) {
   report.thresholds = check_thresholds(report, std::move(thresholds));
   std::cout << (options.json ? to_json(report) : to_text(report));
   if (!options.output.empty()) {
+    const FolderLock lock = hold_folder(options.output);
     write_report(report, options.output);
     log::info("report: {}", (options.output / "report.html").string());
   }

@@ -8,6 +8,7 @@
 #include "cli/settings_flags.h"
 #include "pipeline/probes/picture_probe.h"
 #include "pipeline/probes/probes_run.h"
+#include "pipeline/run/hold_folder.h"
 #include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/make_targets.h"
 #include "probes/formats/formats.h"
@@ -34,7 +35,9 @@ constexpr std::array probes_settings{
     "samples",         "seed",          "clamp",       "bounces",      "device",         "materials",
     "allow_dark",      "allow_scripts", "atlas_limit", "memory_limit", "blender",        "scripts",
     "blender_version", "threads",       "timeout",     "retries",      "launch_timeout", "keep_temporary",
-    "scene",           "view_layer",    "frame"};
+    "scene",           "view_layer",    "frame",
+
+    "cache",           "cache_limit",   "lock_wait"};
 
 std::string format_names() {
   std::string names;
@@ -101,7 +104,7 @@ int probe_from_pictures(const ProbesFlags& flags) {
   const DistantLight light = read_light(flags.from);
   ProbeVolume volume = empty_volume("probe", std::vector{Vec3d(0)});
   volume.probes.front() = probe_of(light);
-  make_folders(flags.output);
+  const FolderLock lock = hold_folder(flags.output);
   write_volumes(flags.output, {volume}, {{"source", "pictures"}});
   std::cout << picture_text(cubes_of(light), study_probe_sphere(light));
   log::info("{}", (flags.output / "probes.json").string());
@@ -114,7 +117,7 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
   if (!is_rnmscene(config.globals.scene.file))
     (void)blender.info();  // throws where it is missing, before any file is written
   (void)plan_reference(config, "5.0");
-  make_folders(flags.output);
+  const FolderLock lock = hold_folder(flags.output, config.globals.run.lock_wait);
   AtomicFile(flags.output / "probes.json")
       .write(" ");  // never committed: finds out now that nothing can be written
   BlenderSession session(config, blender);

@@ -49,7 +49,7 @@ int trace_reference(const ResolvedConfig& config) {
     (void)blender.info();               // throws where it is missing, before any file is written
   (void)plan_reference(config, "5.0");  // throws for settings that are invalid in every version
   BlenderSession session(config, blender);
-  prepare_output(settings.output);
+  const FolderLock lock = prepare_output(settings.output, settings.run);
   const ExportResult exported = export_scene(session);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
   check_light(config, survey);

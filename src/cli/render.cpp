@@ -182,10 +182,11 @@ int render(ResolvedConfig config, const RenderFlags& flags) {
     log::info("opening {}, which has the UVs that were made for these lightmaps", saved->string());
     config.globals.scene.file = *saved;
   }
+  std::optional<FolderLock> lock;
   if (flags.compare) {
     OutputSettings output;
     output.dir = flags.output;
-    prepare_output(output);
+    lock.emplace(prepare_output(output, config.globals.run));
   } else {
     AtomicFile(flags.output).write(" ");  // never committed: finds out now that nothing can be written there
   }

@@ -6,6 +6,7 @@
 #include "base/text_table.h"
 #include "cli/shaders_blender.h"
 #include "encoding/codecs/make_codec.h"
+#include "pipeline/run/hold_folder.h"
 #include "shaders/catalogue.h"
 #include "shaders/engines.h"
 
@@ -48,7 +49,7 @@ void write_files(const ShadersOptions& options, const ShaderEngine& engine) {
   std::vector<std::string> names;
   for (const std::string& name : options.names) names.push_back(shader_named(name).name);
   if (names.empty()) names = shaders_of(engine);
-  make_folders(options.output);
+  const FolderLock lock = hold_folder(options.output);
   for (const std::string& name : names) {
     const auto file = options.output / fmt::format("rnmbake_{}{}", name, engine.ending);
     write_atomically(file, shader_text(engine, {name}));

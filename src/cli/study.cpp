@@ -7,6 +7,7 @@
 #include "cli/reference.h"
 #include "config/resolve.h"
 #include "config/value.h"
+#include "pipeline/run/hold_folder.h"
 #include "pipeline/study/study_lights.h"
 #include "pipeline/study/study_report.h"
 #include "process/stop.h"
@@ -94,6 +95,8 @@ StudyReport study(const StudyFlags& flags) {
 }
 
 int run_study(const StudyFlags& flags) {
+  std::optional<FolderLock> lock;
+  if (!flags.output.empty()) lock.emplace(hold_folder(flags.output));
   const StudyReport found = study(flags);
   if (!flags.output.empty()) write_study(found, flags.output);
   std::cout << (flags.json ? study_json(found).dump(2) + '\n' : study_text(found));

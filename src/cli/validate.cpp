@@ -100,7 +100,7 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
-  prepare_output(config.globals.output);
+  const FolderLock lock = prepare_output(config.globals.output, config.globals.run);
   Validation found =
       validate(session, bases, {flags.decompose, flags.study == "split", flags.view, flags.probes});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));

@@ -96,6 +96,9 @@ struct OutputSettings {
   bool keep_temporary = false;
 };
 
+/// In the place of a path: no folder at all.
+inline constexpr const char* no_cache = "none";
+
 struct RunSettings {
   std::string blender;            // path, or a name to look up in PATH; "": search
   std::filesystem::path scripts;  // "": those inside the binary
@@ -105,6 +108,9 @@ struct RunSettings {
   int launch_timeout = 0;         // seconds; 0: no limit
   int retries = 1;
   std::string time;  // how long a bake may take; "": as long as it needs
+  std::filesystem::path cache;  // folder of results that are kept; "": the user's own; no_cache: none
+  int cache_limit = 20480;      // MiB; 0: no limit
+  int lock_wait = 0;            // seconds, for another run that writes to the same folder
 };
 
 struct BakeSettings {

@@ -97,7 +97,8 @@ SettingOverride read_value(const Reader& reader, const Setting& setting, const t
     fail(ExitCode::usage, "{}: '{}' is {}; give {}", where, setting.key, type_name(node), accepted(setting));
   }
   *value = checked(setting, std::move(*value), where);
-  if (setting.kind == SettingKind::path) *value = reader.from_here(std::get<std::string>(*value));
+  if (setting.kind == SettingKind::path && std::get<std::string>(*value) != setting.no_path)
+    *value = reader.from_here(std::get<std::string>(*value));
   if (setting.kind == SettingKind::program) {
     const std::string& program = std::get<std::string>(*value);
     if (program.find('/') != std::string::npos) *value = reader.from_here(program);

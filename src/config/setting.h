@@ -44,6 +44,7 @@ struct Setting {
   std::vector<std::string_view> choices;  // choice
   std::string_view unit;                  // "texels", "MiB", ...; "" where there is none
   std::string_view empty_means;           // what 0, "" or [] stands for where it has a meaning of its own
+  std::string_view no_path;               // path: a word that is none, "" where every text is a path
   bool per_object = false;                // may stand in an [[override]]
   std::vector<Purpose> purposes;          // whose flag it is; none: everybody's
 

@@ -135,6 +135,10 @@ class Row {
     setting_.purposes = purposes;
     return *this;
   }
+  Row no_path(std::string_view word) {
+    setting_.no_path = word;
+    return *this;
+  }
   Row program() {
     setting_.kind = SettingKind::program;
     return *this;
@@ -336,6 +340,16 @@ std::vector<Setting> make_settings_table() {
       run("retries", &Run::retries, "times that a failed launch is tried again")
           .range(0, 100)
           .only({Purpose::bake, Purpose::validate}),
+      run("cache", &Run::cache, "folder for results that later runs need not make again; none keeps nothing")
+          .no_path(no_cache)
+          .empty_means("$XDG_CACHE_HOME/rnmbake, else ~/.cache/rnmbake"),
+      run("cache_limit", &Run::cache_limit, "what was not used for longest goes when the cache is larger")
+          .range(0, 1'073'741'824)
+          .unit("MiB")
+          .empty_means("no limit"),
+      run("lock_wait", &Run::lock_wait, "wait so long for another run that writes to the same folder")
+          .range(0, 31'536'000)
+          .unit("seconds"),
   };
 }
 

@@ -4,7 +4,7 @@
     run_cases.py --binary build/release/rnmbake [--update] [CASE ...]
 
 `command` is a shell script; $RNMBAKE is the program. It runs in a private empty folder into which the
-case's other files were copied, with none of the caller's RNMBAKE_* variables.
+case's other files were copied, with none of the caller's RNMBAKE_* variables; its cache is below that folder.
 
 `expected` is what came out:
 
@@ -33,7 +33,7 @@ TIMEOUT_SECONDS = 120
 
 
 def environment(binary: Path, folder: Path) -> dict:
-    env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
+    env = {key: value for key, value in os.environ.items() if not key.startswith(("RNMBAKE", "XDG_"))}
     env.update(RNMBAKE=str(binary), HOME=str(folder), LC_ALL="C.UTF-8", NO_COLOR="1")
     return env
 

@@ -36,7 +36,7 @@ def run_blender(script, *arguments, scene=None, **more):
 def environment(**more):
     """Without settings of the caller's; a variable that is empty is not set."""
     env = {key: value for key, value in os.environ.items() if not key.startswith("RNMBAKE")}
-    env.update(RNMBAKE_BLENDER=blender(), NO_COLOR="1", **more)
+    env.update(RNMBAKE_BLENDER=blender(), RNMBAKE_CACHE="none", NO_COLOR="1", **more)
     return {key: value for key, value in env.items() if value}
 
 

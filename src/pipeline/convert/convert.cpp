@@ -11,6 +11,7 @@
 #include "pipeline/lightmaps/lightmap_rows.h"
 #include "pipeline/lightmaps/lightmap_writer.h"
 #include "pipeline/lightmaps/manifest_file.h"
+#include "pipeline/run/hold_folder.h"
 
 #include <algorithm>
 #include <mutex>
@@ -326,7 +327,7 @@ std::vector<ConvertSummary> convert_lightmaps(const fs::path& source, const Conv
                                               const fs::path& folder,
                                               const std::function<void(double, std::string)>& progress) {
   const LightmapFolder found = open_lightmaps(source);
-  make_folders(folder);
+  const FolderLock lock = hold_folder(folder);
   std::error_code unreadable;
   if (fs::equivalent(found.single_file ? source.parent_path() / "." : source, folder, unreadable)) {
     fail(ExitCode::usage, "{} holds what is converted, which would be replaced; name another folder with -o",

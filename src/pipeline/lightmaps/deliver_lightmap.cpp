@@ -6,6 +6,7 @@
 #include "base/object_notes.h"
 #include "base/text.h"
 #include "lightmap/layout.h"
+#include "pipeline/run/hold_folder.h"
 
 #include <algorithm>
 #include <utility>
@@ -85,11 +86,12 @@ bool has_error_layers(const OutputSettings& output) {
          (output.standard_errors == When::when_float && output.depth == Depth::full);
 }
 
-void prepare_output(const OutputSettings& output) {
+FolderLock prepare_output(const OutputSettings& output, const RunSettings& run) {
   if (output.dir.empty())
     fail(ExitCode::usage, "no output folder: pass -o DIR, or set dir in [output] of the project file");
   make_folders(output.dir);
   AtomicFile(output.dir / "manifest.json").write(std::string(1 << 16, ' '));  // never committed
+  return hold_folder(output.dir, run.lock_wait);
 }
 
 Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& header,

@@ -4,6 +4,7 @@
 #include "bake/targets.h"
 #include "config/bake_settings.h"
 #include "image/bakes.h"
+#include "jobs/folder_lock.h"
 #include "lightmap/extra_layers.h"
 #include "lightmap/merge.h"
 #include "lightmap/metadata.h"
@@ -48,9 +49,9 @@ struct LightmapHeader {
 /// Whether a bake's maps get a layer of standard errors beside them.
 [[nodiscard]] bool has_error_layers(const OutputSettings& output);
 
-/// Makes the folder and finds out that nothing can be written there before hours of work. Throws Error(usage)
-/// where none is set, Error(io).
-void prepare_output(const OutputSettings& output);
+/// Makes the folder, holds it (pipeline/run/hold_folder.h) and finds out that nothing can be written there
+/// before hours of work. Throws Error(usage) where none is set, Error(io), Error(lock_held), Interrupted.
+[[nodiscard]] FolderLock prepare_output(const OutputSettings& output, const RunSettings& run);
 
 /// Merges, writes the header and the files; warns of repaired texels. `header.metadata` lacks only its bases.
 /// Throws Error(io), and Error(tasks_failed) where no texel holds a number.

@@ -1,0 +1,18 @@
+// pipeline/run/result_store.h - where the results of a run are kept, by its settings.
+#pragma once
+
+#include "config/bake_settings.h"
+#include "jobs/store.h"
+
+#include <filesystem>
+
+namespace rnmbake {
+
+/// [run] cache as an absolute path; "" where nothing is to be kept: it is "none", or is not set and this user
+/// has neither $XDG_CACHE_HOME nor $HOME.
+[[nodiscard]] std::filesystem::path cache_folder(const std::filesystem::path& cache);
+
+/// Nothing is made or read before it is used.
+[[nodiscard]] Store open_store(const BakeSettings& settings);
+
+}  // namespace rnmbake
