@@ -75,6 +75,13 @@ add_test(NAME manifest.schema
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
 set_tests_properties(manifest.schema PROPERTIES LABELS blender TIMEOUT 1200)
 
+foreach(CLASS Changes Killed)
+  add_test(NAME reuse.${CLASS}
+    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/reuse_check.py -v ${CLASS})
+  set_tests_properties(reuse.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
+endforeach()
+
 add_test(NAME saved_scene.check
   COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)

@@ -1,0 +1,169 @@
+"""What is baked again after which change, and whether a run that was killed goes on where it was, to the last digit.
+
+    RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/reuse_check.py
+"""
+import hashlib
+import json
+import os
+from pathlib import Path
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from harness import LIMIT_SECONDS, OK, SCENES, binary, blender, environment, run_blender
+
+WRAPPER = """#!/bin/bash
+for word in "$@"; do case $word in *_entry.py) basename "$word" >> "$LAUNCHES";; esac; done
+exec "{blender}" "$@"
+"""
+FEW = ("--resolution", "16", "--samples", "8", "--bounces", "2", "--save-scene", "never")
+# Enough for several passes: the model gives a texel-sample 3 us, and a pass 10 s.
+MANY = ("--resolution", "64", "--samples", "512", "--bounces", "0", "--save-scene", "never")
+
+
+class Reuse(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="rnmbake-reuse-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.origin = Path(folder.name) / "origin"
+        cls.origin.mkdir()
+        run_blender(SCENES / "reuse_scene.py", cls.origin / "room.blend")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="rnmbake-reuse-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        shutil.copytree(self.origin, self.folder / "scene")
+        self.scene = self.folder / "scene" / "room.blend"
+        self.launches = self.folder / "launches"
+        self.wrapper = self.folder / "blender"
+        self.wrapper.write_text(WRAPPER.format(blender=blender()), encoding="utf-8")
+        self.wrapper.chmod(0o755)
+
+    def command(self, *flags, out="out", cache="cache"):
+        return [binary(), "bake", str(self.scene), "-o", str(self.folder / out), "--blender", str(self.wrapper),
+                "--cache", str(self.folder / cache) if cache != "none" else cache, *flags]
+
+    def bake(self, *flags, **where):
+        """Scripts that Blender ran, and what was said."""
+        self.launches.write_text("", encoding="utf-8")
+        done = subprocess.run(self.command(*flags, **where), env=self.environment(), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        return self.launches.read_text(encoding="utf-8").split(), done.stderr
+
+    def environment(self):
+        return {**environment(), "LAUNCHES": str(self.launches)}
+
+    def change(self, what):
+        run_blender(SCENES / "reuse_scene.py", self.scene, what, scene=self.scene)
+
+    def pictures(self, out="out"):
+        return {file.name: hashlib.sha256(file.read_bytes()).hexdigest()
+                for file in sorted((self.folder / out).glob("*.exr"))}
+
+    def samples(self, out="out"):
+        manifest = json.loads((self.folder / out / "manifest.json").read_text(encoding="utf-8"))
+        return {entry["key"]: entry["samples"] for entry in manifest["objects"]}
+
+
+class Changes(Reuse):
+    def test_nothing_starts_no_blender(self):
+        self.bake(*FEW)
+        before = self.pictures()
+        launches, said = self.bake(*FEW)
+        self.assertEqual(launches, [])
+        self.assertIn("up to date", said)
+        os.utime(self.scene)
+        self.assertEqual(self.bake(*FEW)[0], [])
+        self.assertEqual(self.pictures(), before)
+
+    def test_a_file_saved_again_is_looked_at_once(self):
+        self.bake(*FEW)
+        self.change("selection")
+        launches, said = self.bake(*FEW)
+        self.assertEqual(launches, ["survey_entry.py"])
+        self.assertIn("scene room.blend changed", said)
+        self.assertEqual(self.bake(*FEW)[0], [])
+
+    def test_light_and_pictures_bake_all_and_are_named(self):
+        self.bake(*FEW)
+        before = self.pictures()
+        for what, named in (("lamp", "light 'Area'"), ("picture", "picture 'wall.png'")):
+            self.change(what)
+            launches, said = self.bake(*FEW, "--why")
+            self.assertIn("bake_entry.py", launches)
+            self.assertIn(named, said)
+            after = self.pictures()
+            self.assertFalse(set(before.items()) & set(after.items()), what)
+            before = after
+
+    def test_settings_of_the_files_bake_nothing(self):
+        self.bake(*FEW)
+        self.assertNotIn("bake_entry.py", self.bake(*FEW, "--depth", "float", "--dilate", "1", "--layout", "files")[0])
+
+    def test_one_object_alone(self):
+        project = self.folder / "scene" / "room.toml"
+        project.write_text('[scene]\nfile = "room.blend"\n[[override]]\nobjects = "box"\nsamples = 16\n',
+                           encoding="utf-8")
+        settings = ("--resolution", "16", "--bounces", "2", "--save-scene", "never")
+        scene, self.scene = self.scene, project
+        self.bake(*settings)
+        before = self.pictures()
+        project.write_text(project.read_text(encoding="utf-8").replace("16", "32"), encoding="utf-8")
+        launches, said = self.bake(*settings)
+        self.scene = scene
+        after = self.pictures()
+        self.assertEqual(launches.count("bake_entry.py"), 1)
+        self.assertIn("baking 3 lightmaps", said)
+        self.assertEqual({name for name in before if before[name] != after[name]}, {"box.exr"})
+
+    def test_a_shared_cache_serves_another_checkout(self):
+        self.bake(*FEW)
+        before = self.pictures()
+        shutil.move(self.folder / "scene", self.folder / "elsewhere")
+        self.scene = self.folder / "elsewhere" / "room.blend"
+        self.assertEqual(self.bake(*FEW, out="other")[0], ["survey_entry.py"])
+        self.assertEqual(self.pictures("other"), before)
+
+    def test_dry_run_writes_nothing(self):
+        done = subprocess.run(self.command(*FEW, "--dry-run"), env=self.environment(), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        self.assertEqual((done.returncode, done.stdout.splitlines()),
+                         (OK, [f"{name}: 8 samples to bake" for name in ("floor", "wall", "box")]))
+        self.assertFalse((self.folder / "out").exists())
+
+
+class Killed(Reuse):
+    def test_goes_on_to_the_same_bytes(self):
+        self.bake(*MANY, out="whole", cache="none")
+        whole = self.pictures("whole")
+        random.seed(7)
+        for round_ in range(3):
+            for victim in ("rnmbake", "blender"):
+                with self.subTest(round=round_, victim=victim):
+                    shutil.rmtree(self.folder / "cache", ignore_errors=True)
+                    shutil.rmtree(self.folder / "out", ignore_errors=True)
+                    self.kill_one(victim, random.uniform(1, 25))
+                    self.bake(*MANY)
+                    self.assertEqual(self.pictures(), whole)
+
+    def kill_one(self, victim, seconds):
+        self.launches.write_text("", encoding="utf-8")
+        process = subprocess.Popen(self.command(*MANY), env=self.environment(), stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(seconds)
+        if victim == "rnmbake":
+            process.send_signal(signal.SIGKILL)
+        else:
+            subprocess.run(["pkill", "-KILL", "-P", str(process.pid)], check=False)
+        process.wait(LIMIT_SECONDS)
+
+
+if __name__ == "__main__":
+    unittest.main()
