@@ -107,7 +107,7 @@ struct RunSettings {
   int timeout = 600;              // seconds without progress
   int launch_timeout = 0;         // seconds; 0: no limit
   int retries = 1;
-  std::string time;  // how long a bake may take; "": as long as it needs
+  std::string time;             // how long a bake may take; "": as long as it needs
   std::filesystem::path cache;  // folder of results that are kept; "": the user's own; no_cache: none
   int cache_limit = 20480;      // MiB; 0: no limit
   int lock_wait = 0;            // seconds, for another run that writes to the same folder
