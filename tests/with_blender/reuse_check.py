@@ -20,6 +20,7 @@ WRAPPER = """#!/bin/bash
 for word in "$@"; do case $word in *_entry.py) basename "$word" >> "$LAUNCHES";; esac; done
 exec "{blender}" "$@"
 """
+ROUNDS = int(os.environ.get("ROUNDS", "1"))  # of each victim
 FEW = ("--resolution", "16", "--samples", "8", "--bounces", "2", "--save-scene", "never")
 # Enough for several passes: the model gives a texel-sample 3 us, and a pass 10 s.
 MANY = ("--resolution", "64", "--samples", "512", "--bounces", "0", "--save-scene", "never")
@@ -144,7 +145,7 @@ class Killed(Reuse):
         self.bake(*MANY, out="whole", cache="none")
         whole = self.pictures("whole")
         random.seed(7)
-        for round_ in range(3):
+        for round_ in range(ROUNDS):
             for victim in ("rnmbake", "blender"):
                 with self.subTest(round=round_, victim=victim):
                     shutil.rmtree(self.folder / "cache", ignore_errors=True)
