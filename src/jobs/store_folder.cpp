@@ -66,6 +66,8 @@ class Lister {
         ++found_.others;
       }
     });
+    std::sort(found_.results.begin(), found_.results.end(),
+              [](const StoredResult& a, const StoredResult& b) { return a.key < b.key; });
     return std::move(found_);
   }
 

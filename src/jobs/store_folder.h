@@ -39,7 +39,7 @@ struct StoredResult {
 };
 
 struct StoreContents {
-  std::vector<StoredResult> results;
+  std::vector<StoredResult> results;  // ordered by key
   std::int64_t bytes = 0;
   std::vector<std::filesystem::path> temporary;  // of processes that write now, or were killed
   std::size_t others = 0;                        // files that are not the store's and are left alone
