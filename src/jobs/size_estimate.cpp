@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t seconds_valid = 24 * 60 * 60;
+constexpr std::int64_t seconds_valid = 60 * 60;
 
 struct Count {
   std::int64_t bytes = 0, counted = 0;  // seconds since 1970

@@ -8,14 +8,15 @@
 namespace rnmbake {
 
 /// The number that processes share in the file `size` of the store's folder. Nobody locks it: what two
-/// processes add at one moment may be lost, so it holds for a day, then the store is to be counted again.
+/// processes add at one moment may be lost, and what a process that is killed had not told yet, so it holds
+/// for an hour, then the store is to be counted again.
 class SizeEstimate {
  public:
   static constexpr const char* file_name = "size";
 
   explicit SizeEstimate(std::filesystem::path folder, std::int64_t limit);
 
-  /// With what this process added; nothing where nobody has counted within the last day.
+  /// With what this process added; nothing where nobody has counted within the last hour.
   [[nodiscard]] std::optional<std::int64_t> bytes() const;
 
   /// Something was put into the store. Others hear of it once it is 1/64 of the limit, or by flush().

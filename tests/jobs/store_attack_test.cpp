@@ -90,8 +90,13 @@ TEST_F(StoreCase, OutlivesProcessesThatAreKilled) {
   EXPECT_GT(counts.whole, 0U);
   EXPECT_TRUE(list_store(cache()).temporary.empty()) << "what the dead left is swept";
   EXPECT_EQ(list_store(cache()).others, 0U);
-  EXPECT_LE(list_store(cache()).bytes, attack_limit);
+  // What each of the killed had put and not told is missing from the estimate, so that the limit may be
+  // passed now, but not once the store is counted again.
   Store store(cache(), attack_limit);
+  fs::remove(cache() / SizeEstimate::file_name);  // as after an hour
+  store.put(pass_key(attack_results), "one more");
+  EXPECT_TRUE(store.has(pass_key(attack_results)));
+  EXPECT_LE(list_store(cache()).bytes, attack_limit);
   for (int i = 0; i < attack_results; ++i) {
     EXPECT_EQ(store.get(pass_key(i)).value_or(attack_bytes(i)), attack_bytes(i));
   }

@@ -171,7 +171,7 @@ TEST_F(Store_, DoesNotCountAtEachPut) {
   }
   store.put(pass_key(10), bytes);
   EXPECT_TRUE(store.has(pass_key(1))) << "counted, though nothing said that it should";
-  fs::remove(cache() / SizeEstimate::file_name);  // as after a day
+  fs::remove(cache() / SizeEstimate::file_name);  // as after an hour
   store.put(pass_key(11), bytes);
   EXPECT_LE(list_store(cache()).bytes, 900'000);
 }
