@@ -174,6 +174,7 @@ ResolvedConfig resolve(const ProjectFile& project, const std::vector<SettingOver
   config.let_stronger_resolution_win();
   fill_bases(config.globals.bake);
   config.overrides_ = project.overrides;
+  config.project_file = project.file;
   config.check_together();
   return config;
 }

@@ -12,7 +12,8 @@ namespace rnmbake {
 
 class ResolvedConfig {
  public:
-  BakeSettings globals;  // globals.object: what holds where no override matches
+  BakeSettings globals;                // globals.object: what holds where no override matches
+  std::filesystem::path project_file;  // "": none
 
   /// `key` is the object's unique key in the survey; patterns may match it or the name. Overrides apply in
   /// the file's order, so the last one that matches wins. A flag or an environment variable wins over all

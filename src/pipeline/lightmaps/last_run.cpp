@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "blender/find.h"
 #include "config/value.h"
+#include "jobs/run_index.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,9 @@ LastRun::LastRun(const ResolvedConfig& config, std::string command)
     return;
   }
   reasons_ = reasons_to_run(*record, settings_);
-  if (reasons_.empty()) write_record(record_file(), *record);
+  if (!reasons_.empty()) return;
+  write_record(record_file(), *record);  // with the times of files that were touched
+  remember_run(record_file());
 }
 
 fs::path LastRun::record_file() const {
@@ -117,6 +120,7 @@ void LastRun::keep(const SceneSurvey& survey) const {
   };
   add("blender",
       find_blender(settings.run.blender.empty() ? std::nullopt : std::optional(settings.run.blender)));
+  add("project file", config_.project_file);
   add("scene", settings.scene.file);
   add("basis file", settings.bake.basis);
   for (const InputFile& input : survey.inputs) {
@@ -125,6 +129,7 @@ void LastRun::keep(const SceneSurvey& survey) const {
   for (const fs::path& file : written_files(settings.output.dir)) add("output", file);
   write_atomically(digest_file(), to_json(survey.digest).dump() + "\n");
   write_record(record_file(), record);
+  remember_run(record_file());
 }
 
 }  // namespace rnmbake
