@@ -33,8 +33,10 @@ bool is_quiet(std::span<char* const> words) {
 int main(int argc, char** argv) {
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   if (const auto run = rnmbake::unchanged_run({argv, words.size()})) {
-    const std::string folder = run->record.parent_path().string();
-    if (!is_quiet(words)) std::fprintf(stderr, "rnmbake: nothing to do: %s is up to date\n", folder.c_str());
+    for (const fs::path& record : run->records) {
+      if (!is_quiet(words))
+        std::fprintf(stderr, "rnmbake: nothing to do: %s is up to date\n", record.parent_path().c_str());
+    }
     return 0;
   }
   const fs::path program = engine();

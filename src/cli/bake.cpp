@@ -8,6 +8,7 @@
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/settings_flags.h"
+#include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/lightmaps/last_run.h"
 #include "pipeline/run/result_store.h"
@@ -97,20 +98,35 @@ int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   return code;
 }
 
+/// One scene after the other, each with all cores. The exit code is the first that is not 0.
+int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags) {
+  int code = 0;
+  std::vector<std::filesystem::path> records;
+  for (const ResolvedConfig& config : configs) {
+    if (configs.size() > 1) log::info("{}", config.globals.scene.file.string());
+    const int one = bake(config, flags);
+    code = code == 0 ? one : code;
+    records.push_back(LastRun::record_in(config.globals.output.dir));
+  }
+  if (code == 0 && !flags.dry_run) remember_run(records);
+  return code;
+}
+
 }  // namespace
 
 std::function<int()> add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bake a scene into directional lightmaps");
   auto flags = std::make_shared<SettingsFlags>(*command);
+  flags->take_several_scenes();
   auto more = std::make_shared<BakeFlags>();
   command->add_flag("--why", more->why, "list all that made the bake necessary");
   command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");
   command->add_flag("--force", more->force, "look for changes in the scene even where no file changed");
   return [flags, more] {
-    const auto config = flags->resolve();
-    if (!config) return static_cast<int>(ExitCode::ok);
+    const std::vector<ResolvedConfig> configs = flags->resolve_all();
+    if (configs.empty()) return static_cast<int>(ExitCode::ok);
     StopRequest::install();
-    return bake(*config, *more);
+    return bake_all(configs, *more);
   };
 }
 

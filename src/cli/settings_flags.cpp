@@ -4,7 +4,9 @@
 #include "config/document.h"
 #include "config/value.h"
 
+#include <filesystem>
 #include <iostream>
+#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -68,7 +70,7 @@ SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose, std::span<const
   if (only.empty()) command.footer(fmt::format(epilogue, command.get_name()));
   const std::string help = fmt::format("scene (.blend, .glb, .gltf{}) or project file (.toml)",
                                        purpose == Purpose::reference ? ", .rnmscene" : "");
-  scene_ = command.add_option("SCENE", help);
+  scene_ = command.add_option("SCENE", scenes_, help)->expected(1)->type_name("");
   for (const Setting& setting : settings()) {
     if (only.empty() && setting.serves(purpose)) add(command, setting, group_of(setting));
   }
@@ -104,14 +106,44 @@ std::vector<SettingOverride> SettingsFlags::given_flags() const {
 }
 
 std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
+  return resolve(scene_->count() > 0 ? scene_->results().back() : "", out);
+}
+
+void SettingsFlags::take_several_scenes() {
+  scene_->expected(1, CLI::detail::expected_max_vector_size);
+}
+
+std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
+  const std::vector<std::string> scenes =
+      scene_->count() > 0 ? scene_->results() : std::vector<std::string>{""};
+  std::vector<ResolvedConfig> all;
+  std::set<std::string> names;
+  for (const std::string& scene : scenes) {
+    auto config = resolve(scene, std::cout);
+    if (!config) return {};
+    const std::string name = std::filesystem::path(scene).stem().string();
+    if (scenes.size() > 1) {
+      if (!names.insert(name).second)
+        fail(ExitCode::usage,
+             "two of the scenes are called '{}' and would write into one folder; bake one after the other, "
+             "each "
+             "with an --output of its own",
+             name);
+      if (!config->globals.output.dir.empty()) config->globals.output.dir /= name;
+    }
+    all.push_back(std::move(*config));
+  }
+  return all;
+}
+
+std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene, std::ostream& out) const {
   if (print_reference_->count() > 0) {
     out << settings_reference();
     return std::nullopt;
   }
   std::vector<SettingOverride> flags = given_flags();
   ProjectFile project;
-  if (scene_->count() > 0) {
-    const std::string scene = scene_->results().back();
+  if (!scene.empty()) {
     if (is_project_path(scene)) {
       project = read_project(scene);
     } else {

@@ -32,12 +32,20 @@ class SettingsFlags {
   [[nodiscard]] std::optional<ResolvedConfig> resolve(std::ostream& out) const;
   [[nodiscard]] std::optional<ResolvedConfig> resolve() const;  // on stdout
 
+  /// The same of a command that takes several scenes or projects, each with the flags; of several, each
+  /// writes into a folder of its own below the output folder, with the name of its file. Empty: as nullopt
+  /// above.
+  [[nodiscard]] std::vector<ResolvedConfig> resolve_all() const;
+  void take_several_scenes();
+
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
   [[nodiscard]] std::vector<SettingOverride> given_flags() const;
+  [[nodiscard]] std::optional<ResolvedConfig> resolve(const std::string& scene, std::ostream& out) const;
 
   Purpose purpose_;
   std::vector<std::pair<const Setting*, CLI::Option*>> options_;
+  std::vector<std::string> scenes_;
   CLI::Option* scene_ = nullptr;
   CLI::Option* print_config_ = nullptr;
   CLI::Option* print_reference_ = nullptr;

@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -86,7 +88,7 @@ std::optional<std::string> command_text(std::span<const char* const> words) {
   return text + fs::current_path().string();
 }
 
-void remember_run(const fs::path& record) {
+void remember_run(const std::vector<fs::path>& records) {
   try {
     const std::vector<std::string> own = own_words();
     std::vector<const char*> words;
@@ -100,7 +102,9 @@ void remember_run(const fs::path& record) {
       fs::remove_all(file.parent_path());
       make_folders(file.parent_path());
     }
-    write_atomically(file, fs::absolute(record).string());
+    std::string lines;
+    for (const fs::path& record : records) lines += fs::absolute(record).string() + "\n";
+    write_atomically(file, lines);
   } catch (const std::exception&) {
     return;  // the next run looks for itself
   }
@@ -111,10 +115,14 @@ std::optional<UnchangedRun> unchanged_run(std::span<const char* const> words) no
     const auto command = command_text(words);
     const fs::path file = command ? file_of(*command) : fs::path();
     if (file.empty() || !fs::exists(file)) return std::nullopt;
-    const fs::path record_file = read_text(file);
-    auto record = read_record(record_file);
-    if (!record || !reasons_to_run(*record, record->settings).empty()) return std::nullopt;
-    return UnchangedRun{record_file};
+    UnchangedRun run;
+    std::istringstream lines(read_text(file));
+    for (std::string line; std::getline(lines, line);) {
+      auto record = read_record(line);
+      if (!record || !reasons_to_run(*record, record->settings).empty()) return std::nullopt;
+      run.records.emplace_back(line);
+    }
+    return run.records.empty() ? std::nullopt : std::optional(std::move(run));
   } catch (const std::exception&) {
     return std::nullopt;
   }

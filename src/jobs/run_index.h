@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rnmbake {
 
@@ -15,14 +16,14 @@ namespace rnmbake {
 /// and variables. Nothing where it asks for more than to be done: reasons, a plan, an answer in JSON.
 [[nodiscard]] std::optional<std::string> command_text(std::span<const char* const> words);
 
-/// Remembers where the record of this process's command lies, for this user on this machine: in
+/// Remembers where the records of this process's command lie, for this user on this machine: in
 /// $XDG_CACHE_HOME/rnmbake-runs. Nothing is remembered with RNMBAKE_CACHE=none, or where that folder cannot
 /// be written.
-void remember_run(const std::filesystem::path& record);
+void remember_run(const std::vector<std::filesystem::path>& records);
 
 /// A command that need not be run again.
 struct UnchangedRun {
-  std::filesystem::path record;
+  std::vector<std::filesystem::path> records;
 };
 
 /// Whether the command was run before and nothing that it read or wrote is different now. In doubt: no.

@@ -9,12 +9,14 @@
 #include "pipeline/lightmaps/bake_collector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -38,7 +40,9 @@ class FakeBlender : public Blender {
       [](const nlohmann::json&) { return std::nullopt; };
   bool short_pictures = false;
   std::vector<Baked> launches;
-  std::vector<nlohmann::json> passes;  // of all launches
+  std::vector<nlohmann::json> passes;    // of all launches
+  std::vector<nlohmann::json> left_out;  // of rounds that leave something out
+  double noise = 0;  // standard deviation of one sample; twice that in the atlas's right half
 
   [[nodiscard]] const BlenderInfo& info() const override { return info_; }
 
@@ -51,16 +55,25 @@ class FakeBlender : public Blender {
     }
     on_progress({"bake", "atlas 1", 1, 2, 0, 0, ""});
     if (auto failure = fault(baked)) return *failure;
-    for (const auto& pass : launch.request.at("passes")) {
-      const auto& atlases = launch.request.at("atlases");
-      for (std::size_t i = 0; i < atlases.size(); ++i)
-        write_pixels(launch.folder / pass.at("pixels").at(i).get<std::string>(), atlases.at(i));
-      {
-        const std::lock_guard lock(mutex_);
-        passes.push_back(pass);
+    nlohmann::json known = launch.request.at("passes");
+    while (!known.empty()) {
+      for (const auto& pass : known) {
+        const auto& atlases = launch.request.at("atlases");
+        for (std::size_t i = 0; i < atlases.size(); ++i)
+          write_pixels(launch.folder / pass.at("pixels").at(i).get<std::string>(), atlases.at(i), pass);
+        {
+          const std::lock_guard lock(mutex_);
+          passes.push_back(pass);
+        }
+        on_progress({"bake", "pass", 1, 2, 0, 0, ""});
+        if (auto failure = fault_after(pass)) return *failure;
       }
-      on_progress({"bake", "pass", 1, 2, 0, 0, ""});
-      if (auto failure = fault_after(pass)) return *failure;
+      if (!launch.request.at("by_rounds")) break;
+      const std::size_t next = known.back().at("number").get<std::size_t>() + 1;
+      std::ifstream go(launch.folder / ("go" + std::to_string(next) + ".json"));
+      const nlohmann::json more = nlohmann::json::parse(go);
+      if (!more.at("left_out").empty()) left_out.push_back(more.at("left_out"));
+      known = more.at("passes");
     }
     Finished finished;
     finished.result = {
@@ -85,9 +98,15 @@ class FakeBlender : public Blender {
     return baked;
   }
 
-  void write_pixels(const std::filesystem::path& file, const nlohmann::json& atlas) const {
+  void write_pixels(const std::filesystem::path& file, const nlohmann::json& atlas,
+                    const nlohmann::json& pass) const {
     const std::size_t count = atlas.at("width").get<std::size_t>() * atlas.at("height").get<std::size_t>();
     std::vector<float> pixels(4 * count, 0.5F);
+    const auto width = atlas.at("width").get<std::size_t>();
+    std::mt19937 random(pass.at("seed").get<unsigned>() + 7919 * pass.at("first").get<unsigned>());
+    std::normal_distribution<double> normal(0, noise / std::sqrt(pass.at("count").get<double>()));
+    for (std::size_t i = 0; i < pixels.size() && noise > 0; ++i)
+      pixels[i] += float(normal(random) * (i / 4 % width < width / 2 ? 1 : 2));
     for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = 1;
     if (short_pictures) pixels.pop_back();
     std::ofstream(file, std::ios::binary)

@@ -47,6 +47,7 @@ BatchWork::BatchWork(const Plan& plan, Batch batch, BakeRequest request, fs::pat
     for (const std::size_t half : {0U, 1U}) done[half] = std::max(done[half], picture.samples[half]);
   }
   plan_passes(done);
+  told_ = texels_ * wanted_ - earlier_;
 }
 
 json BatchWork::launch_request() const {
@@ -106,10 +107,19 @@ std::vector<ResultKey> BatchWork::used_keys() const {
   return keys;
 }
 
+double BatchWork::take_less_work() {
+  const double now = work();
+  return std::exchange(told_, now) - now;
+}
+
 double BatchWork::work_of(std::size_t first, std::size_t last) const {
   double samples = 0;
   for (std::size_t i = first; i < last; ++i) samples += passes_[i].count;
   return samples * texels_;
+}
+
+HalfSamples BatchWork::shared_out(int samples) const {
+  return rules_.halves ? in_halves(samples) : HalfSamples{samples, 0};
 }
 
 void BatchWork::plan_passes(const HalfSamples& done) {
@@ -121,7 +131,7 @@ void BatchWork::plan_passes(const HalfSamples& done) {
   } else if (by_rounds()) {
     plan_round();
   } else {
-    passes_ = cut_into_passes(done, in_halves(wanted_), rules_.cost);
+    passes_ = cut_into_passes(done, shared_out(wanted_), rules_.cost);
     left_out_.resize(passes_.size());
   }
 }
@@ -131,22 +141,27 @@ void BatchWork::plan_passes(const HalfSamples& done) {
 /// of it is noisier than another.
 void BatchWork::plan_round() {
   std::vector<std::size_t> quiet;
-  double least_ratio = 1e9;  // of the noise that is left to the noise that is wanted
+  double least_ratio = 1e9, greatest_ratio = 0;  // of the noise that is left to the noise that is wanted
   if (noise_ > 0) {
     const std::map<std::size_t, double> noise = noise_by_target();
     for (std::size_t i = 0; i < layout().rects.size(); ++i) {
       const double ratio = noise.at(plan_.rects[layout().rects[i]].target) / noise_;
       if (ratio <= 1) quiet.push_back(i);
       if (ratio > 1) least_ratio = std::min(least_ratio, ratio);
+      greatest_ratio = std::max(greatest_ratio, ratio);
     }
+    if (reached_[1] > 0) expected_ = expected_work(greatest_ratio);
   }
-  if (quiet.size() == layout().rects.size()) return;
+  if (quiet.size() == layout().rects.size()) {
+    expected_ = std::max(work_of(0, passes_.size()), 1.0);
+    return;
+  }
   int samples = noise_ > 0 ? samples_of_round(least_ratio) : wanted_;
   if (rules_.deadline) samples = std::min(samples, samples_in_time());
-  HalfSamples wanted = in_halves(std::min(samples, wanted_));
+  HalfSamples wanted = shared_out(std::min(samples, wanted_));
   for (const std::size_t half : {0U, 1U}) wanted[half] = std::max(wanted[half], reached_[half]);
   for (SamplePass& pass : cut_into_passes(reached_, wanted, rules_.cost)) {
-    pass.of = in_halves(wanted_)[std::size_t(pass.half)];
+    pass.of = shared_out(wanted_)[std::size_t(pass.half)];
     passes_.push_back(pass);
     left_out_.push_back(quiet);
   }
@@ -159,6 +174,12 @@ int BatchWork::samples_of_round(double least_ratio) const {
   if (samples == 0) return first_round;
   const double growth = std::clamp(1.05 * least_ratio * least_ratio, least_growth, most_growth);
   return static_cast<int>(std::min(std::ceil(samples * growth), 1e9));
+}
+
+/// Until the noisiest is quiet enough.
+double BatchWork::expected_work(double greatest_ratio) const {
+  const double samples = reached_[0] + reached_[1];
+  return texels_ * std::min(samples * greatest_ratio * greatest_ratio, double(wanted_)) - earlier_;
 }
 
 int BatchWork::samples_in_time() const {

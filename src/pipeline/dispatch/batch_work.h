@@ -25,6 +25,7 @@ class BatchWork {
  public:
   struct Rules {
     bool whole = false;  // the recipe cannot bake a part of its samples
+    bool halves = true;
     PassCost cost;
     std::optional<double> deadline;  // on the clock; then the best that fits
     const Clock* clock = &steady_clock();
@@ -54,11 +55,13 @@ class BatchWork {
   /// Passes that are there, and the samples that one of them takes.
   [[nodiscard]] std::size_t passes_done() const { return next_; }
 
-  /// Texels x samples that are missing at first, those of them that are done, and those that came from the
-  /// cache.
-  [[nodiscard]] double work() const { return texels_ * wanted_ - earlier_; }
+  /// Texels x samples that are missing at first, as far as can be told now, those of them that are done, and
+  /// those that came from the cache.
+  [[nodiscard]] double work() const { return expected_ > 0 ? expected_ : texels_ * wanted_ - earlier_; }
   [[nodiscard]] double done() const { return is_complete() ? work() : work_of(0, next_); }
   [[nodiscard]] double kept() const { return kept_; }
+  /// By how much work() fell since the last call.
+  [[nodiscard]] double take_less_work();
 
   /// Pictures in the layout's order, once it is complete.
   [[nodiscard]] std::vector<BakedPicture> take_pictures() { return std::move(pictures_); }
@@ -73,9 +76,11 @@ class BatchWork {
   [[nodiscard]] double work_of(std::size_t first, std::size_t last) const;
   [[nodiscard]] bool by_rounds() const { return noise_ > 0 || rules_.deadline; }
   void plan_passes(const HalfSamples& done);
+  [[nodiscard]] HalfSamples shared_out(int samples) const;
   void plan_round();
   [[nodiscard]] int samples_of_round(double least_ratio) const;
   [[nodiscard]] int samples_in_time() const;
+  [[nodiscard]] double expected_work(double greatest_ratio) const;
   [[nodiscard]] std::map<std::size_t, double> noise_by_target() const;
   [[nodiscard]] ResultKey key_of(std::size_t pass) const;
   void add(std::size_t pass, std::vector<BakedPicture> pictures);
@@ -89,7 +94,7 @@ class BatchWork {
   const PassCache& cache_;
   ResultKey key_;
   int seed_ = 0, wanted_ = 0;
-  double noise_ = 0, texels_ = 0, kept_ = 0, earlier_ = 0, started_ = 0;
+  double noise_ = 0, texels_ = 0, kept_ = 0, expected_ = 0, told_ = 0, earlier_ = 0, started_ = 0;
   std::vector<SamplePass> passes_;
   std::vector<std::vector<std::size_t>> left_out_;  // [passes] positions in the layout that are quiet enough
   std::size_t next_ = 0;                            // pass that is missing

@@ -134,6 +134,7 @@ class Dispatcher {
     BatchWork::Rules rules;
     rules.whole = !recipe_.in_passes;
     rules.deadline = rules_.deadline;
+    rules.halves = rules_.halves;
     BakeRequest request = recipe_.request(attempt.batch(), jobs_, folder);
     rules.cost = cost_of(plan_, request.layout, recipe_.scene_triangles);
     if (attempt.earlier.empty()) attempt.earlier = kept_.earlier(attempt.missing);
@@ -167,6 +168,7 @@ class Dispatcher {
     std::vector<BakedPicture> pictures = work.take_pictures();
     kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
     sink_.take(work.batch(), work.layout(), std::move(pictures));
+    progress_.leave_out(work.take_less_work());
     progress_.finish(work.batch().tasks.front(), work.done() - work.kept());
     if (!session_.settings().output.keep_temporary) fs::remove_all(work.folder());
     const std::lock_guard lock(mutex_);
@@ -262,9 +264,11 @@ class Dispatcher {
   }
 
   /// `before`: work that was done when the launch began.
-  void show(const BatchWork& work, double before, const ProgressEvent& event) {
+  void show(BatchWork& work, double before, const ProgressEvent& event) {
     const double share = event.total > 0 ? event.done / event.total : 0;
-    const double done = std::max(work.done(), before + (work.work() - before) * share);
+    const double since = recipe_.in_passes ? event.done : work.work() * share;
+    const double done = std::clamp(before + since, work.done(), work.work());
+    progress_.leave_out(work.take_less_work());
     progress_.advance(work.batch().tasks.front(), done - work.kept(), in_words(event));
   }
 

@@ -35,6 +35,7 @@ struct BatchRecipe {
 struct DispatchRules {
   PassCache cache;                 // what was baked before is not baked again
   std::optional<double> deadline;  // on base/clock: the best that fits
+  bool halves = true;              // else the samples are one sequence, and no error is known
 };
 
 /// Runs the passes of all batches of the plan, but for what the cache holds. A failed batch is tried again

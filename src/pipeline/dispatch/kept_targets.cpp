@@ -1,5 +1,8 @@
 #include "pipeline/dispatch/kept_targets.h"
 
+#include "base/log.h"
+#include "base/text.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -37,11 +40,13 @@ std::vector<MissingBatch> KeptTargets::missing(const Cut& cut) {
     for (const PlannedTarget& target : targets_) run.add("target", cache_.key_of(target));
     run_ = run.make("journal");
   }
+  std::size_t kept = 0;
   const auto journal = cache_.is_on() ? cache_.find_journal(run_) : std::nullopt;
   for (const PlannedTarget& target : targets_) {
     std::optional<TargetPictures> found;
     if (cache_.is_on()) found = cache_.find(cache_.key_of(target), target.rects().size());
     if (found) {
+      ++kept;
       hand_over(target.target, std::move(*found));
       continue;
     }
@@ -49,6 +54,7 @@ std::vector<MissingBatch> KeptTargets::missing(const Cut& cut) {
     const auto samples = part ? samples_of(*part) : std::nullopt;
     missing[target.target] = samples && is_part(*samples, target.samples()) ? *samples : HalfSamples{0, 0};
   }
+  if (kept > 0) log::info("{} of {} baked before", kept, counted(targets_.size(), "target"));
   if (journal) {
     for (const auto& [target, samples] : *journal) {
       if (target < targets_.size()) missing[target] = samples;

@@ -8,7 +8,6 @@
 #include "base/version.h"
 #include "blender/find.h"
 #include "config/value.h"
-#include "jobs/run_index.h"
 
 #include <algorithm>
 #include <array>
@@ -87,11 +86,14 @@ LastRun::LastRun(const ResolvedConfig& config, std::string command)
   reasons_ = reasons_to_run(*record, settings_);
   if (!reasons_.empty()) return;
   write_record(record_file(), *record);  // with the times of files that were touched
-  remember_run(record_file());
+}
+
+fs::path LastRun::record_in(const fs::path& dir) {
+  return dir / ".rnmbake-run.json";
 }
 
 fs::path LastRun::record_file() const {
-  return config_.globals.output.dir / ".rnmbake-run.json";
+  return record_in(config_.globals.output.dir);
 }
 
 fs::path LastRun::digest_file() const {
@@ -129,7 +131,6 @@ void LastRun::keep(const SceneSurvey& survey) const {
   for (const fs::path& file : written_files(settings.output.dir)) add("output", file);
   write_atomically(digest_file(), to_json(survey.digest).dump() + "\n");
   write_record(record_file(), record);
-  remember_run(record_file());
 }
 
 }  // namespace rnmbake

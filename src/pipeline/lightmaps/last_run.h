@@ -29,6 +29,9 @@ class LastRun {
   /// Keeps this run, all of whose objects were delivered, for the next one.
   void keep(const SceneSurvey& survey) const;
 
+  /// The record's file in an output folder.
+  [[nodiscard]] static std::filesystem::path record_in(const std::filesystem::path& dir);
+
  private:
   [[nodiscard]] std::filesystem::path record_file() const;
   [[nodiscard]] std::filesystem::path digest_file() const;

@@ -91,7 +91,7 @@ BakedProbes bake_probes(BlenderSession& session, const SceneSurvey& survey, cons
   const std::vector<ProbeTerm> terms = terms_of(settings, !survey.lights.empty(), wanted.lights);
   const std::size_t values = wanted.positions.size() * wanted.directions.size();
   if (values == 0 || terms.empty())
-    return {std::vector<Vec3>(values, Vec3(0)), std::vector<bool>(wanted.positions.size(), true), {}};
+    return {std::vector<Vec3>(values, Vec3(0)), {}, std::vector<bool>(wanted.positions.size(), true), {}};
   const std::vector<ProbeBlock> blocks = blocks_of(wanted.positions.size());
   const Plan plan = plan_probes(settings, wanted, blocks, terms);
   log::info("baking {} x {} in {} of Blender {}", counted(wanted.positions.size(), "probe"),
@@ -99,8 +99,10 @@ BakedProbes bake_probes(BlenderSession& session, const SceneSurvey& survey, cons
             session.blender().info().version_text);
   ProbeCollector collector(plan, blocks, terms, wanted.directions.size());
   BakedProbes result;
-  result.timings = run_batches(session, plan, blend, receiver_requests(settings, survey, plan), collector);
+  result.timings =
+      run_batches(session, plan, blend, receiver_requests(settings, survey, plan), collector, wanted.rules);
   result.irradiance = collector.irradiance();
+  result.standard_errors = collector.standard_errors();
   result.baked = collector.is_baked();
   name_holes(collector.holes(), wanted.positions);
   return result;

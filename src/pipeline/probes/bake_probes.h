@@ -5,6 +5,7 @@
 #include "blender/blend_path.h"
 #include "blender/blender_session.h"
 #include "pipeline/dispatch/bake_timings.h"
+#include "pipeline/dispatch/dispatcher.h"
 #include "probes/probe_lights.h"
 #include "scene/survey.h"
 
@@ -21,11 +22,13 @@ struct ProbeBake {
   std::span<const Vec3> directions;  // unit
   ProbeLights lights = ProbeLights::all;
   std::vector<std::string> absent;  // keys of the survey's objects that are to be left out
+  DispatchRules rules = {};         // what was baked before
 };
 
 struct BakedProbes {
-  std::vector<Vec3> irradiance;  // [positions][directions], E/pi, RGB; 0 where nothing was baked
-  std::vector<bool> baked;       // [positions]
+  std::vector<Vec3> irradiance;       // [positions][directions], E/pi, RGB; 0 where nothing was baked
+  std::vector<Vec3> standard_errors;  // [positions][directions] of these; empty: not known
+  std::vector<bool> baked;            // [positions]
   BakeTimings timings;
 };
 

@@ -19,6 +19,7 @@ ProbeCollector::ProbeCollector(const Plan& plan, const std::vector<ProbeBlock>& 
   }
   for (const BakeTask& task : plan.tasks) ++blocks_[task.target].missing;
   sums_.assign(positions * directions, Vec3d(0, 0, 0));
+  differences_ = sums_;
   holed_.assign(positions, false);
 }
 
@@ -30,7 +31,7 @@ void ProbeCollector::take(const Batch& batch, const BatchLayout& layout, std::ve
     Block& block = blocks_[task.target];
     const bool is_wanted = !block.given_up && block.missing > 0;
     for (std::size_t i = 0; i < task.rects.size(); ++i, ++next) {
-      if (is_wanted) add(plan_.rects[layout.rects[next]], pictures[next].mean(), sign_of(task));
+      if (is_wanted) add(plan_.rects[layout.rects[next]], pictures[next], sign_of(task));
     }
     if (is_wanted) --block.missing;
   }
@@ -59,6 +60,17 @@ std::vector<Vec3> ProbeCollector::irradiance() const {
   return values;
 }
 
+std::vector<Vec3> ProbeCollector::standard_errors() const {
+  if (variance_factor_ == 0) return {};
+  const double factor = std::sqrt(variance_factor_);
+  std::vector<Vec3> errors;
+  errors.reserve(differences_.size());
+  for (const Vec3d& d : differences_)
+    errors.emplace_back(float(std::abs(d.x) * factor), float(std::abs(d.y) * factor),
+                        float(std::abs(d.z) * factor));
+  return errors;
+}
+
 std::vector<bool> ProbeCollector::is_baked() const {
   const std::lock_guard lock(mutex_);
   std::vector<bool> baked(holed_.size(), false);
@@ -81,7 +93,9 @@ std::vector<std::size_t> ProbeCollector::holes() const {
   return holes;
 }
 
-void ProbeCollector::add(const AtlasRect& rect, const FloatImage& picture, double sign) {
+void ProbeCollector::add(const AtlasRect& rect, const BakedPicture& baked, double sign) {
+  const FloatImage picture = baked.mean();
+  variance_factor_ = baked.variance_factor();
   const ProbeBlock& block = blocks_[rect.target].positions;
   const RectSize map = plan_.targets[rect.target].map;
   for (std::size_t i = 0; i < block.count; ++i) {
@@ -89,7 +103,13 @@ void ProbeCollector::add(const AtlasRect& rect, const FloatImage& picture, doubl
     const auto texel = picture.texel(x, other_row(y, picture.height()));
     const Vec3d value(texel[0], texel[1], texel[2]);
     if (texel[3] > 0.5F && std::isfinite(value.length2())) {
-      sums_[(block.first + i) * directions_ + rect.pass.basis] += value * sign;
+      const std::size_t at = (block.first + i) * directions_ + rect.pass.basis;
+      sums_[at] += value * sign;
+      if (baked.has_error()) {
+        const int row = other_row(y, picture.height());
+        differences_[at] +=
+            (Vec3d(vec3_at(baked.halves[0], x, row)) - Vec3d(vec3_at(baked.halves[1], x, row))) * sign;
+      }
     } else {
       holed_[block.first + i] = true;
     }

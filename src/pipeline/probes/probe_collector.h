@@ -37,6 +37,9 @@ class ProbeCollector : public PictureSink {
   /// E/pi, RGB, of all positions: [positions][directions], none below 0; 0 where is_baked() is not.
   [[nodiscard]] std::vector<Vec3> irradiance() const;
 
+  /// Standard errors of irradiance(), from the difference of two halves; empty where there are none.
+  [[nodiscard]] std::vector<Vec3> standard_errors() const;
+
   /// Positions of complete blocks at which a texel was not baked, or is no number.
   [[nodiscard]] std::vector<std::size_t> holes() const;
 
@@ -50,7 +53,7 @@ class ProbeCollector : public PictureSink {
     bool given_up = false;
   };
   [[nodiscard]] static bool is_complete(const Block& block) { return !block.given_up && block.missing == 0; }
-  void add(const AtlasRect& rect, const FloatImage& picture, double sign);
+  void add(const AtlasRect& rect, const BakedPicture& picture, double sign);
   [[nodiscard]] double sign_of(const BakeTask& task) const;
 
   const Plan& plan_;
@@ -58,8 +61,10 @@ class ProbeCollector : public PictureSink {
   std::size_t directions_;
   mutable std::mutex mutex_;
   std::vector<Block> blocks_;
-  std::vector<Vec3d> sums_;  // [positions][directions]; of few floats, so the same in any order
-  std::vector<bool> holed_;  // [positions]; a texel was not baked, or is no number
+  std::vector<Vec3d> sums_;         // [positions][directions]; of few floats, so the same in any order
+  std::vector<Vec3d> differences_;  // [positions][directions] of the halves
+  double variance_factor_ = 0;      // from their squares to variances; 0: no halves
+  std::vector<bool> holed_;         // [positions]; a texel was not baked, or is no number
 };
 
 }  // namespace rnmbake

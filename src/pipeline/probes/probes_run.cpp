@@ -7,6 +7,8 @@
 #include "base/text.h"
 #include "pipeline/probes/bake_probes.h"
 #include "pipeline/probes/reference_light.h"
+#include "pipeline/run/result_store.h"
+#include "pipeline/scene/scene_key.h"
 #include "probes/fill_probes.h"
 #include "probes/probe_tree.h"
 #include "probes/regular_volume.h"
@@ -66,14 +68,21 @@ void light_by_blender(BlenderSession& session, const ExportResult& exported, con
   std::vector<Vec3d> positions;
   for (const LightProbe* probe : probes) positions.push_back(probe->position);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
+  Store store = open_store(session.settings());
+  DispatchRules rules;
+  if (!options.lambert)
+    rules.cache = PassCache(store, scene_key(session, survey));  // albedo is baked anew each time
   const BakedProbes baked =
       bake_probes(session, survey, options.lambert ? exported.blends->shown : exported.blends->own,
-                  {positions, probe_directions(), options.lights, keys_of(survey, dynamic)});
+                  {positions, probe_directions(), options.lights, keys_of(survey, dynamic), rules});
   for (std::size_t i = 0; i < probes.size(); ++i) {
     if (!baked.baked[i]) probes[i]->validity = 0;
     std::copy_n(baked.irradiance.begin() + std::ptrdiff_t(i * probe_direction_count), probe_direction_count,
                 probes[i]->irradiance.begin());
-    probes[i]->standard_error.fill(Vec3(0));  // not known
+    probes[i]->standard_error.fill(Vec3(0));
+    if (!baked.standard_errors.empty())
+      std::copy_n(baked.standard_errors.begin() + std::ptrdiff_t(i * probe_direction_count),
+                  probe_direction_count, probes[i]->standard_error.begin());
     probes[i]->harmonics = harmonics_of(probes[i]->irradiance);
   }
 }

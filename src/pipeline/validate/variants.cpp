@@ -14,6 +14,7 @@ OutputSettings plain_output(const OutputSettings& output, const std::filesystem:
   OutputSettings plain;
   plain.dir = dir;
   plain.depth = Depth::full;
+  plain.standard_errors = OutputSettings::StandardErrors::never;
   plain.save_scene = OutputSettings::SaveScene::never;
   plain.keep_temporary = output.keep_temporary;
   return plain;
@@ -51,7 +52,9 @@ BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const Bak
   const bool lambert = variant.materials == SceneSettings::Materials::lambert;
   SceneBlends blends = base.exported.blends.value();
   if (!lambert) blends.shown = blends.own;
-  return run_bake(session, {base.exported.diffuse_scene.survey, halved, base.bases, blends});
+  DispatchRules rules;
+  rules.halves = false;  // the other half is a bake of its own
+  return run_bake(session, {base.exported.diffuse_scene.survey, halved, base.bases, blends, {}, rules});
 }
 
 ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, const TraceVariant& variant) {

@@ -1,3 +1,4 @@
+#include "base/clock.h"
 #include "pipeline/dispatch/dispatcher.h"
 #include "pipeline/fixture.h"
 
@@ -28,8 +29,10 @@ struct PassBake {
     const auto recipe = receiver_requests(scene.settings(), context.survey, planned);
     const PassCache cache(store, KeyMaker().add("scene", "a").make("scene"));
     const BakeTimings timings =
-        run_batches(session, planned, BlendPath("scene.blend"), recipe, collector, {cache, {}});
+        run_batches(session, planned, BlendPath("scene.blend"), recipe, collector, {cache, deadline});
     delivered = is_delivered(collector, 0) && is_delivered(collector, 1);
+    for (std::size_t i = 0; i < 2 && delivered; ++i)
+      outcome.push_back(std::get<Delivered>(*collector.deliveries()[i]));
     return timings;
   }
 
@@ -44,7 +47,9 @@ struct PassBake {
   BakeContext context;
   Plan planned;
   FakeBlender blender;
+  std::optional<double> deadline;
   bool delivered = false;
+  std::vector<Delivered> outcome;  // [targets]
 };
 
 /// Ends the launch after so many passes of all launches.
@@ -118,6 +123,51 @@ TEST(Passes, OfMoreSamplesGoOnFromThoseThatAreThere) {
   }
   for (const auto& [seed, count] : samples) EXPECT_EQ(count, (1 << 17) - (1 << 15)) << seed;
   EXPECT_EQ(samples.size(), 2U);
+}
+
+TEST(Passes, GoOnUntilTheNoiseIsSmallEnough) {
+  const TempFolder cache;
+  const double wanted = 0.05;
+  PassBake bake(cache.path(), 1 << 18, wanted);
+  bake.blender.noise = 0.4;  // of a mean of 0.5, or twice that: 256 samples, or 1024
+  (void)bake.run();
+  ASSERT_TRUE(bake.delivered);
+  for (const Delivered& one : bake.outcome) {
+    EXPECT_LE(one.standard_error, 1.02 * wanted);  // another mean stands below it than in the decision
+    EXPECT_GE(one.standard_error, wanted / 2);
+    EXPECT_GE(one.samples, 256 * 0.8);
+    EXPECT_LE(one.samples, 1024 * 2);
+  }
+  PassBake again(cache.path(), 1 << 18, wanted);
+  again.blender.noise = 0.4;
+  EXPECT_EQ(again.run().launches, 0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(again.outcome[i].samples, bake.outcome[i].samples);
+}
+
+TEST(Passes, OfRoundsThatWereCutOffEndAlike) {
+  const TempFolder cache, other;
+  const auto make = [](PassBake& bake) { bake.blender.noise = 0.4; };
+  PassBake whole(other.path(), 1 << 18, 0.02), stopped(cache.path(), 1 << 18, 0.02),
+      next(cache.path(), 1 << 18, 0.02);
+  make(whole), make(stopped), make(next);
+  (void)whole.run();
+  die_after(stopped, 5, Kind::stopped);
+  EXPECT_THROW((void)stopped.run(), Interrupted);
+  (void)next.run();
+  EXPECT_EQ(next.blender.passes.size() + 5, whole.blender.passes.size());
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(next.outcome[i].samples, whole.outcome[i].samples);
+    EXPECT_EQ(next.outcome[i].standard_error, whole.outcome[i].standard_error);
+  }
+}
+
+TEST(Passes, EndInTime) {
+  PassBake bake("");
+  bake.blender.noise = 0.4;
+  bake.deadline = steady_clock().now();
+  (void)bake.run();
+  ASSERT_TRUE(bake.delivered);
+  EXPECT_EQ(bake.outcome[0].samples, 32);  // one round, which is what anybody gets
 }
 
 TEST(Passes, LeaveNothingButTheirSumInTheCache) {
