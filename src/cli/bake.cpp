@@ -117,7 +117,7 @@ int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags)
 std::function<int()> add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bake a scene into directional lightmaps");
   auto flags = std::make_shared<SettingsFlags>(*command);
-  flags->take_several_scenes();
+  flags->take_several_scenes(*command);
   auto more = std::make_shared<BakeFlags>();
   command->add_flag("--why", more->why, "list all that made the bake necessary");
   command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");

@@ -70,7 +70,7 @@ SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose, std::span<const
   if (only.empty()) command.footer(fmt::format(epilogue, command.get_name()));
   const std::string help = fmt::format("scene (.blend, .glb, .gltf{}) or project file (.toml)",
                                        purpose == Purpose::reference ? ", .rnmscene" : "");
-  scene_ = command.add_option("SCENE", scenes_, help)->expected(1)->type_name("");
+  scene_ = command.add_option("SCENE", help);
   for (const Setting& setting : settings()) {
     if (only.empty() && setting.serves(purpose)) add(command, setting, group_of(setting));
   }
@@ -109,8 +109,10 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
   return resolve(scene_->count() > 0 ? scene_->results().back() : "", out);
 }
 
-void SettingsFlags::take_several_scenes() {
-  scene_->expected(1, CLI::detail::expected_max_vector_size);
+void SettingsFlags::take_several_scenes(CLI::App& command) {
+  const std::string help = scene_->get_description();
+  command.remove_option(scene_);  // one that takes a single word cannot be told to take more
+  scene_ = command.add_option("SCENE", scenes_, help)->type_name("");
 }
 
 std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {

@@ -36,7 +36,7 @@ class SettingsFlags {
   /// writes into a folder of its own below the output folder, with the name of its file. Empty: as nullopt
   /// above.
   [[nodiscard]] std::vector<ResolvedConfig> resolve_all() const;
-  void take_several_scenes();
+  void take_several_scenes(CLI::App& command);
 
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
