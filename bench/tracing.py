@@ -126,7 +126,8 @@ def report(data):
             f"\n\nflat and three bases, {SIZE} x {SIZE} texels for each object, {BOUNCES} bounces, plain diffuse materials in both. "
             "Cycles' time is that within its joined bake call, the reference's all that follows reading the scene file. Noise is the "
             "RMS over all texels of half the difference of two bakes with different seeds; time to the same noise goes with its "
-            "square, mean over the four maps. The goal is 10.\n\n" +
+            "square, mean over the four maps. The goal is 10. `rnmbake bake --engine embree` traces the same way, so these are its "
+            "times, too.\n\n" +
             table(["scene", "triangles", "Mrays/s, 2 threads", "of bare Embree, 1 thread", "2 threads", "2 threads are faster by",
                    "MiB for a million triangles", "build s"], tracer) +
             "\n\n\"Bare Embree\" asks rtcIntersect1 and rtcOccluded1 about a million of the same rays in the same order, and nothing else. "

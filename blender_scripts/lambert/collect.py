@@ -22,12 +22,12 @@ class Scene:
         if not item.is_instance:
             self.kept.append(ob)
             self.outside.append({"owner": owner, "what": [what], "untraced": [what]})
-            self.warnings.append(f"{ob.name}: {what} keeps its material; only surfaces become lambert")
+            self.warnings.append(f"{ob.name}: {what} keeps its material; only surfaces become diffuse")
         elif not any(other["owner"] == owner for other in self.outside):
             self.outside.append({"owner": owner, "what": [what]})
-            self.warnings.append(f"{ob.name}: instances of {what} are left out with --materials lambert")
+            self.warnings.append(f"{ob.name}: instances of {what} are left out of a scene of diffuse surfaces")
 
     def _leave_hair(self, ob):
         if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in ob.particle_systems):
             self.outside.append({"owner": f"object '{ob.name}'", "what": ["hair"]})
-            self.warnings.append(f"{ob.name}: its hair is left out with --materials lambert")
+            self.warnings.append(f"{ob.name}: its hair is left out of a scene of diffuse surfaces")

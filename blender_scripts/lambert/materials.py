@@ -51,8 +51,8 @@ class Source:
     def lost(self):
         """Losses against the user's material, for a warning; "" for none."""
         if self.opaque_now:
-            return f"is {', '.join(self.opaque_now)}; with --materials lambert it is opaque"
-        return "has a volume, which --materials lambert leaves out" if "volume" in self.notes.outside else ""
+            return f"is {', '.join(self.opaque_now)}; as a diffuse surface it is opaque"
+        return "has a volume, which a scene of diffuse surfaces leaves out" if "volume" in self.notes.outside else ""
 
     @property
     def name(self):

@@ -7,11 +7,14 @@
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
+#include "cli/reference.h"
 #include "cli/settings_flags.h"
 #include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/lightmaps/last_run.h"
+#include "pipeline/reference/reference_plan.h"
 #include "pipeline/run/result_store.h"
+#include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/scene_key.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
@@ -67,16 +70,41 @@ int show_plan(const std::vector<BakePreview>& targets) {
   return static_cast<int>(ExitCode::ok);
 }
 
+bool is_traced(const BakeSettings& settings) {
+  return settings.bake.engine == BakingSettings::Engine::embree;
+}
+
+/// With engine embree.
+int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const LastRun& last) {
+  BetweenTraceSteps between;
+  between.surveyed = [&](const SceneSurvey& survey) {
+    say_why(last.scene_changes(survey.digest), flags.why);
+  };
+  between.delivered = [&](const SceneSurvey& survey) { last.keep(survey); };
+  if (flags.dry_run) {
+    between.preview = [](const TargetList& list) {
+      std::vector<BakePreview> all;
+      for (std::size_t i = 0; i < list.targets.size(); ++i)
+        all.push_back({list.targets[i].key, false, list.settings[i].samples});
+      return show_plan(all);
+    };
+  }
+  return trace_bake(config, between);
+}
+
 int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   const double started = steady_clock().now();
+  const bool traced = is_traced(config.globals);
+  if (traced) (void)plan_traced_bake(config, "5.0");  // throws for what only Cycles does
   const OutputSettings& output = config.globals.output;
   if (output.dir.empty()) (void)prepare_output(output, config.globals.run);  // throws
-  const LastRun last(config, "bake");
+  const LastRun last(config, "bake", !traced || !is_rnmscene(config.globals.scene.file));
   if (last.reasons().empty() && !flags.force) {
     log::info("nothing to do: {} is up to date", output.dir.string());
     return static_cast<int>(ExitCode::ok);
   }
   say_why(last.reasons(), flags.why);
+  if (traced) return bake_by_embree(config, flags, last);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written

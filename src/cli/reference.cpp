@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
@@ -12,8 +13,10 @@
 #include "process/stop.h"
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
 
 namespace rnmbake {
 namespace {
@@ -31,41 +34,82 @@ int report(const ReferenceOutcome& outcome, const OutputSettings& output) {
   return static_cast<int>(ExitCode::ok);
 }
 
-void say_what_is_left_out(const DiffuseScene& scene) {
-  for (const OutsideModel& outside : scene.outside) {
-    std::string what;
-    for (const std::string& one : outside.what) what += (what.empty() ? "" : ", ") + one;
-    log::warn("{}: outside the reference's model: {}", outside.owner, what);
-  }
+std::string in_words(const std::vector<std::string>& what) {
+  return fmt::format("{}", fmt::join(what, ", "));
 }
 
-}  // namespace
+void say_what_is_left_out(const DiffuseScene& scene) {
+  for (const OutsideModel& outside : scene.outside)
+    log::warn("{}: outside the reference's model: {}", outside.owner, in_words(outside.what));
+}
 
-int trace_reference(const ResolvedConfig& config) {
+/// One line for a bake. `materials`: what was asked for; in a lambert scene there is less to leave out.
+void say_what_is_not_followed(const DiffuseScene& scene, SceneSettings::Materials materials) {
+  std::vector<std::string> owners;
+  for (const OutsideModel& outside : scene.outside) {
+    const bool lambert = materials == SceneSettings::Materials::lambert;
+    const std::vector<std::string>& what = lambert ? outside.untraced : outside.what;
+    if (!what.empty()) owners.push_back(fmt::format("{} ({})", outside.owner, in_words(what)));
+  }
+  if (owners.empty()) return;
+  log::warn(
+      "{}: the embree engine does not follow what stands in brackets, only light between diffuse surfaces; "
+      "manifest.json lists all of it{}",
+      first_names(owners),
+      materials == SceneSettings::Materials::lambert ? "" : ", and engine cycles follows it");
+}
+
+/// What distinguishes a reference from a bake by the tracer.
+struct TracedKind {
+  const char* name;  // in manifests
+  ReferencePlan (*plan)(const ResolvedConfig&, const std::string& scene_version);
+  const char* verb;
+};
+
+int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTraceSteps& between) {
   const BakeSettings& settings = config.globals;
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
   if (!is_rnmscene(settings.scene.file))
-    (void)blender.info();               // throws where it is missing, before any file is written
-  (void)plan_reference(config, "5.0");  // throws for settings that are invalid in every version
+    (void)blender.info();          // throws where it is missing, before any file is written
+  (void)kind.plan(config, "5.0");  // throws for settings that are invalid in every version
   BlenderSession session(config, blender);
-  const FolderLock lock = prepare_output(settings.output, settings.run);
+  std::optional<FolderLock> lock;
+  if (!between.preview) lock.emplace(prepare_output(settings.output, settings.run));
   const ExportResult exported = export_scene(session);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
+  if (between.surveyed) between.surveyed(survey);
   check_light(config, survey);
-  say_what_is_left_out(exported.diffuse_scene);
-  const ReferencePlan plan = plan_reference(config, survey.blender_version);
+  const ReferencePlan plan = kind.plan(config, survey.blender_version);
+  if (plan.is_bake)
+    say_what_is_not_followed(exported.diffuse_scene, settings.scene.materials);
+  else
+    say_what_is_left_out(exported.diffuse_scene);
+  if (between.preview) return between.preview(exported.list);
   const TraceScene scene(exported.diffuse_scene, plan.blender_version);
-  const EarlierLightmaps earlier = find_earlier(session, {"reference", bases}, survey, exported.list.targets);
+  const EarlierLightmaps earlier = find_earlier(session, {kind.name, bases}, survey, exported.list.targets);
   SavedScene saved;
   if (exported.blends) {
     saved = save_scene_with_uvs(session, survey, exported.blends->own,
                                 earlier.add_to(uvs_of(exported.list.targets)));
   }
-  log::info("tracing {} x {} against Blender {}", counted(exported.list.targets.size(), "lightmap"),
+  log::info("{} {} x {} against Blender {}", kind.verb, counted(exported.list.targets.size(), "lightmap"),
             counted(bases.size(), "direction"), plan.blender_version);
-  return report(run_reference({scene, exported.list, bases, earlier}, settings, plan, "tracing", saved),
-                settings.output);
+  const int code =
+      report(run_reference({scene, exported.list, bases, earlier}, settings, plan, kind.verb, saved),
+             settings.output);
+  if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey);
+  return code;
+}
+
+}  // namespace
+
+int trace_reference(const ResolvedConfig& config) {
+  return trace(config, {"reference", plan_reference, "tracing"}, {});
+}
+
+int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between) {
+  return trace(config, {"bake", plan_traced_bake, "baking"}, between);
 }
 
 std::function<int()> add_reference_command(CLI::App& app) {

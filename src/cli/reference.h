@@ -2,6 +2,8 @@
 #pragma once
 
 #include "config/resolve.h"
+#include "pipeline/scene/make_targets.h"
+#include "scene/survey.h"
 
 #include <functional>
 
@@ -13,6 +15,16 @@ namespace rnmbake {
 
 /// Traces the scene of these settings into their output folder. Returns the exit code; throws as its steps.
 int trace_reference(const ResolvedConfig& config);
+
+/// What a bake does between the steps of its tracing; each may be empty.
+struct BetweenTraceSteps {
+  std::function<void(const SceneSurvey&)> surveyed;
+  std::function<int(const TargetList&)> preview;      // in place of all that writes; returns the exit code
+  std::function<void(const SceneSurvey&)> delivered;  // where no object failed
+};
+
+/// The same as trace_reference() for a bake with engine embree.
+int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between);
 
 /// Registers `reference` and its flags; the function runs it and returns the exit code.
 std::function<int()> add_reference_command(CLI::App& app);

@@ -48,6 +48,7 @@ struct SceneSettings {
 };
 
 struct BakingSettings {
+  enum class Engine { cycles, embree };
   enum class Recipe { receiver, flat_normal_map };
   enum class Dispatch { automatic, basis, object, scene };
   enum class Device { cpu, cuda, optix, hip, metal, oneapi };
@@ -58,6 +59,7 @@ struct BakingSettings {
   std::vector<std::string> bases;
   std::filesystem::path basis;                 // file with a list of unit vectors; "": basis_set
   DirectionSet basis_set = DirectionSet::rnm;  // encoding/direction_sets.h
+  Engine engine = Engine::cycles;
   Recipe recipe = Recipe::receiver;
   bool correct_bump = false;  // flat_normal_map only
   Dispatch dispatch = Dispatch::automatic;

@@ -1,5 +1,5 @@
-// config/recipe_names.h - recipes, reference models and sets of directions as text: in settings, manifests,
-// headers, folders, reports.
+// config/recipe_names.h - engines, recipes, reference models and sets of directions as text: in settings,
+// manifests, headers, folders, reports.
 #pragma once
 
 #include "config/bake_settings.h"
@@ -10,10 +10,15 @@
 namespace rnmbake {
 
 inline constexpr const char* flat_normal_map_name =
-    "flat-normal-map";  // the published recipe, baked or traced
+    "flat-normal-map";                                // the published recipe, baked or traced
+inline constexpr const char* traced_name = "traced";  // as a recipe: a bake by the tracer
 
 [[nodiscard]] constexpr const char* name_of(BakingSettings::Recipe recipe) {
   return recipe == BakingSettings::Recipe::receiver ? "receiver" : flat_normal_map_name;
+}
+
+[[nodiscard]] constexpr const char* name_of(BakingSettings::Engine engine) {
+  return engine == BakingSettings::Engine::cycles ? "cycles" : "embree";
 }
 
 [[nodiscard]] constexpr const char* name_of(ReferenceSettings::Model model) {

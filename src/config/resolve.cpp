@@ -215,6 +215,8 @@ bool is_scene_path(const std::filesystem::path& path, Purpose purpose) {
 }
 
 void require_scene(const ResolvedConfig& config, Purpose purpose) {
+  const bool traced = config.globals.bake.engine == BakingSettings::Engine::embree;
+  if (purpose == Purpose::bake && traced) purpose = Purpose::reference;
   std::vector<std::string> endings = scene_endings(purpose);
   const std::string last = endings.back();
   endings.pop_back();

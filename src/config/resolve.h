@@ -72,7 +72,7 @@ struct UnmatchedPattern {
 [[nodiscard]] bool is_scene_path(const std::filesystem::path& path, Purpose purpose);
 
 /// Throws Error(usage) where no scene was named or its ending is not .blend, .glb or .gltf (for a reference
-/// also .rnmscene), and Error(io) where there is no such file.
+/// and a bake by embree also .rnmscene), and Error(io) where there is no such file.
 void require_scene(const ResolvedConfig& config, Purpose purpose = Purpose::bake);
 
 }  // namespace rnmbake

@@ -30,6 +30,9 @@ inline Spelling spelling(ObjectSettings::Split) {
 inline Spelling spelling(SceneSettings::Materials) {
   return {"full", "lambert"};
 }
+inline Spelling spelling(BakingSettings::Engine) {
+  return {name_of(BakingSettings::Engine::cycles), name_of(BakingSettings::Engine::embree)};
+}
 inline Spelling spelling(BakingSettings::Recipe) {
   return {name_of(BakingSettings::Recipe::receiver), name_of(BakingSettings::Recipe::flat_normal_map)};
 }

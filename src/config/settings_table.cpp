@@ -91,6 +91,9 @@ std::vector<Setting> make_settings_table() {
       bake("basis_set", &Bake::basis_set,
            "directions to bake for encodings that want more than RNM's (rnmbake convert --to h6, sg, sh3), "
            "or to study encodings at (rnmbake study)"),
+      bake("engine", &Bake::engine,
+           "who computes the light: cycles, or embree, faster, of diffuse surfaces alone")
+          .only({Purpose::bake}),
       bake("recipe", &Bake::recipe, "receiver is exact; flat-normal-map is the published recipe, uncorrected")
           .only({Purpose::bake}),
       bake("correct_bump", &Bake::correct_bump,

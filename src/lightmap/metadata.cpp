@@ -108,6 +108,7 @@ CodecOptions codec_of(const Header& header, const std::string& convention) {
 }
 
 void read_origin(const Header& header, LightmapMetadata& metadata) {
+  header.optional("engine", metadata.engine);
   header.optional("recipe", metadata.recipe);
   header.optional("horizon", metadata.horizon);
   header.optional("footprint", metadata.footprint);
@@ -184,6 +185,7 @@ void write_metadata(const LightmapMetadata& metadata, LayeredImage& image) {
     set("bits", metadata.codec.bits);
     set("mono", metadata.codec.mono ? 1 : 0);
   }
+  if (!metadata.engine.empty()) set("engine", metadata.engine);
   set("recipe", metadata.recipe);
   set("horizon", metadata.horizon);
   set("footprint", metadata.footprint);

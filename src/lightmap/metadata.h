@@ -34,7 +34,8 @@ struct LightmapMetadata {
   std::vector<BasisDirection> bases;  // baked directions in layer order, "flat" included
   CodecOptions codec;                 // of a converted lightmap; its `bases` are what it was made from
 
-  std::string recipe;     // "receiver", "flat-normal-map", "reference"
+  std::string engine;     // "cycles", "embree"; "": not said
+  std::string recipe;     // "receiver", "flat-normal-map", "traced", "reference"
   std::string horizon;    // how corners whose basis normal falls under their face were treated
   std::string footprint;  // what a texel averages over: "texel centre", "half texel", "texel"
   int samples = 0, bounces = 0, seed = 0;  // bounces -1: no limit

@@ -104,6 +104,32 @@ class Manifest(unittest.TestCase):
                          [entry["files"] for entry in self.manifest["objects"]])
         self.assert_strict(manifest, ((), ("objects", 0), ("timings",)))
 
+    def test_of_a_bake_by_embree_fits_and_repeats(self):
+        manifest = self.lightmaps("bake", "embree", "--engine", "embree", "--threads", "1")
+        self.assert_valid(manifest)
+        self.assertEqual((manifest["kind"], manifest["engine"], manifest["recipe"], manifest["bounces"]),
+                         ("bake", "embree", "traced", 32))
+        again = self.lightmaps("bake", "embree again", "--engine", "embree", "--threads", "2")
+        self.assertEqual({**manifest, "timings": 0}, {**again, "timings": 0})
+        for entry in manifest["objects"]:
+            for name in entry["files"]:
+                self.assertEqual((self.folder / "embree" / name).read_bytes(),
+                                 (self.folder / "embree again" / name).read_bytes(), name)
+        for what in ("key", "files", "uv_hash", "uv_layer"):
+            self.assertEqual([entry[what] for entry in manifest["objects"]],
+                             [entry[what] for entry in self.manifest["objects"]], what)
+        self.assert_strict(manifest, ((), ("objects", 0), ("timings",)))
+
+    def test_engines_share_a_folder(self):
+        name = "both engines"
+        self.bake(name, "--save-scene", "never")
+        flags = ("--objects", "floor,dust", "--engine", "embree", "--save-scene", "never")
+        manifest = self.lightmaps("bake", name, *flags)
+        self.assert_valid(manifest)
+        objects = {entry["key"]: entry for entry in manifest["objects"]}
+        self.assertNotIn("earlier", objects["floor"])
+        self.assertEqual(objects["smooth"]["earlier"]["engine"], "cycles")
+
     def test_schema_is_strict(self):
         self.assert_strict(self.manifest, ((), ("conventions",), ("objects", 0), ("objects", 0, "horizon"), ("bases", 0),
                                            ("timings",)))

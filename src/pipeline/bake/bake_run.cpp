@@ -63,6 +63,7 @@ bool by_receiver(const BakeSettings& settings) {
 LightmapMetadata metadata_of(const Target& target, const ObjectSettings& object, const BakeSettings& settings,
                              const BlenderInfo& blender) {
   LightmapMetadata metadata = target_metadata(target, object, settings.output);
+  metadata.engine = name_of(BakingSettings::Engine::cycles);
   metadata.recipe = name_of(settings.bake.recipe);
   if (!by_receiver(settings) && settings.bake.correct_bump) metadata.recipe += ", correct-bump";
   metadata.horizon = !by_receiver(settings)                                ? "Blender's"

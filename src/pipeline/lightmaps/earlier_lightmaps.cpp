@@ -50,7 +50,7 @@ std::string object_key_of(const json& entry) {
 json facts_of_run(const json& manifest) {
   json facts;
   for (const char* name :
-       {"rnmbake", "blender", "recipe", "materials", "bounces", "model", "faults", "error"}) {
+       {"rnmbake", "blender", "engine", "recipe", "materials", "bounces", "model", "faults", "error"}) {
     if (manifest.contains(name)) facts[name] = manifest[name];
   }
   facts["footprint"] = manifest.at("conventions").at("footprint");

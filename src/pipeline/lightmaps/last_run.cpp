@@ -69,11 +69,13 @@ json to_json(const SceneDigest& digest) {
 
 }  // namespace
 
-LastRun::LastRun(const ResolvedConfig& config, std::string command)
+LastRun::LastRun(const ResolvedConfig& config, std::string command, bool needs_blender)
     : config_(config), settings_(settings_text(config, command)) {
-  const fs::path blender = find_blender(
-      config.globals.run.blender.empty() ? std::nullopt : std::optional(config.globals.run.blender));
-  settings_ += fmt::format("blender at {}\n", blender.string());
+  if (needs_blender) {
+    const std::string& wanted = config.globals.run.blender;
+    blender_ = find_blender(wanted.empty() ? std::nullopt : std::optional(wanted));
+    settings_ += fmt::format("blender at {}\n", blender_.string());
+  }
   if (!fs::exists(record_file())) {
     reasons_.emplace_back("nothing was baked there before");
     return;
@@ -120,8 +122,7 @@ void LastRun::keep(const SceneSurvey& survey) const {
   const auto add = [&](const char* kind, const fs::path& path) {
     if (!path.empty()) record.files.push_back(look_at(kind, fs::absolute(path)));
   };
-  add("blender",
-      find_blender(settings.run.blender.empty() ? std::nullopt : std::optional(settings.run.blender)));
+  add("blender", blender_);
   add("project file", config_.project_file);
   add("scene", settings.scene.file);
   add("basis file", settings.bake.basis);

@@ -17,8 +17,9 @@ namespace rnmbake {
 /// by content where those differ. Starts no Blender.
 class LastRun {
  public:
-  /// `command`: "bake", "reference".
-  LastRun(const ResolvedConfig& config, std::string command);
+  /// `command`: "bake", "reference". Throws Error(environment) where the run needs a Blender and there is
+  /// none; without `needs_blender` none is looked for.
+  LastRun(const ResolvedConfig& config, std::string command, bool needs_blender = true);
 
   /// Why it has to be run; empty: it need not be.
   [[nodiscard]] const Reasons& reasons() const { return reasons_; }
@@ -37,6 +38,7 @@ class LastRun {
   [[nodiscard]] std::filesystem::path digest_file() const;
 
   const ResolvedConfig& config_;
+  std::filesystem::path blender_;  // empty: not needed
   std::string settings_;
   Reasons reasons_;
 };

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json.h"
+#include "config/recipe_names.h"
 #include "pipeline/lightmaps/target_facts.h"
 
 #include <algorithm>
@@ -118,17 +119,22 @@ const char* name_of(SceneSettings::Materials materials) {
 
 void add_to_top(const BakeRecord& bake, const BakeSettings& settings, json& manifest) {
   manifest["kind"] = "bake";
+  manifest["engine"] = name_of(BakingSettings::Engine::cycles);
   manifest["materials"] = name_of(settings.scene.materials);
   manifest["dispatch"] = bake.dispatch;
   manifest["timings"] = to_json(bake.timings);
 }
 
 void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings*/, json& manifest) {
-  manifest["kind"] = "reference";
+  manifest["kind"] = reference.is_bake ? "bake" : "reference";
   manifest["materials"] = name_of(SceneSettings::Materials::lambert);
-  manifest["model"] = reference.model;
-  manifest["faults"] = reference.faults;
-  manifest["error"] = reference.error;
+  if (reference.is_bake) {
+    manifest["engine"] = name_of(BakingSettings::Engine::embree);
+  } else {
+    manifest["model"] = reference.model;
+    manifest["faults"] = reference.faults;
+    manifest["error"] = reference.error;
+  }
   manifest["outside_model"] = json::array();
   for (const OutsideModel& outside : reference.outside)
     manifest["outside_model"].push_back(

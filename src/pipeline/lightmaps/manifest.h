@@ -19,7 +19,7 @@
 
 namespace rnmbake {
 
-/// Entries of a bake alone.
+/// Entries of a bake by Blender alone.
 struct BakeRecord {
   const std::vector<HorizonCounts>& horizons;  // [targets]
   const std::vector<double>& heights;          // [targets] of receivers over their faces, texels; 0: none
@@ -27,7 +27,7 @@ struct BakeRecord {
   BakeTimings timings;
 };
 
-/// Entries of a reference alone.
+/// Entries of what was traced, be it a reference or a bake.
 struct ReferenceRecord {
   std::string model;                // true, flat-normal-map
   std::vector<std::string> faults;  // of the latter
@@ -39,6 +39,7 @@ struct ReferenceRecord {
   std::vector<Traced> traced;                // [targets]
   const std::vector<OutsideModel>& outside;  // what the tracer cannot do of the scene
   double wall_seconds = 0;
+  bool is_bake = false;  // by the tracer; the first three do not count
 };
 
 struct ManifestInput {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <utility>
+#include <variant>
 
 #include <spdlog/fmt/ranges.h>
 
@@ -56,6 +57,45 @@ Footprint footprint_of(ReferenceSettings::Footprint wanted, const BlenderVersion
   return version >= first_with_full_footprint ? Footprint::full : Footprint::half;
 }
 
+/// Footprint and edges of that Blender's bakes.
+void follow(const BlenderVersion& version, ReferenceSettings::Footprint footprint, ReferencePlan& plan) {
+  plan.footprint = footprint_of(footprint, version);
+  plan.past_edge = version < first_that_retries ? PastEdge::mirror : PastEdge::retry;
+}
+
+void refuse_clamp(const std::string& where) {
+  fail(ExitCode::usage, "{}: the embree engine clamps nothing; leave clamp out, or bake with engine cycles",
+       where);
+}
+
+void refuse_what_only_cycles_does(const ResolvedConfig& config) {
+  const BakingSettings& bake = config.globals.bake;
+  if (bake.recipe != BakingSettings::Recipe::receiver) {
+    fail(ExitCode::usage,
+         "{}: flat-normal-map is a recipe for Cycles; leave engine embree out, or trace the recipe's errors "
+         "by rnmbake reference --model flat-normal-map",
+         config.provenance("recipe"));
+  }
+  if (bake.device != BakingSettings::Device::cpu) {
+    fail(ExitCode::usage,
+         "{}: the embree engine computes on the CPU; leave device out, or bake with engine cycles",
+         config.provenance("device"));
+  }
+  if (!config.globals.run.time.empty()) {
+    fail(ExitCode::usage,
+         "{}: the embree engine does not go by the clock; give noise or samples, or bake with engine cycles",
+         config.provenance("time"));
+  }
+  if (config.globals.object.clamp > 0) refuse_clamp(config.provenance("clamp"));
+  for (const ObjectOverride& override_ : config.overrides()) {
+    for (const SettingOverride& one : override_.values) {
+      if (one.setting->key == "clamp" && std::get<double>(one.value) > 0 &&
+          !config.fixed_for_all(*one.setting))
+        refuse_clamp(one.where);
+    }
+  }
+}
+
 }  // namespace
 
 ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& scene_version) {
@@ -66,8 +106,7 @@ ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& sc
   plan.blender_version = named ? wanted.blender_version : scene_version;
   const BlenderVersion version =
       blender_version_of(plan.blender_version, named ? config.provenance("blender_version") : "the scene");
-  plan.footprint = footprint_of(wanted.footprint, version);
-  plan.past_edge = version < first_that_retries ? PastEdge::mirror : PastEdge::retry;
+  follow(version, wanted.footprint, plan);
   plan.flat_normal_map = wanted.model == ReferenceSettings::Model::flat_normal_map;
   if (!wanted.faults.empty() && !plan.flat_normal_map) {
     fail(ExitCode::usage, "{}: the true model has no faults; add --model flat-normal-map",
@@ -82,6 +121,17 @@ ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& sc
   if (config.provenance("bounces") != "default") plan.bounces = settings.bake.bounces;
   plan.sh = wanted.sh;
   plan.threads = settings.run.threads;
+  return plan;
+}
+
+ReferencePlan plan_traced_bake(const ResolvedConfig& config, const std::string& scene_version) {
+  refuse_what_only_cycles_does(config);
+  ReferencePlan plan;
+  plan.is_bake = true;
+  plan.blender_version = scene_version;
+  follow(blender_version_of(scene_version, "the scene"), ReferenceSettings::Footprint::automatic, plan);
+  plan.bounces = config.globals.bake.bounces;
+  plan.threads = config.globals.run.threads;
   return plan;
 }
 

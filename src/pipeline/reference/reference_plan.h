@@ -13,12 +13,13 @@ namespace rnmbake {
 
 /// Settings that all targets of a reference share. Samples and seed are each target's own.
 struct ReferencePlan {
+  bool is_bake = false;         // headers, layers and manifest are those of a bake
   std::string blender_version;  // whose light units, footprint, edges and faults
   Footprint footprint = Footprint::half;
   PastEdge past_edge = PastEdge::retry;
   bool flat_normal_map = false;  // the model
   RecipeFaults faults;           // of that model
-  double error = 0;              // share of the mean; 0: off
+  double error = 0;              // share of the mean; 0: off. Of a bake it is each target's own
   int most_samples = 0;          // with `error`; 0: each target's own
   int bounces = -1;              // -1: no limit
   int sh = 0;
@@ -28,6 +29,10 @@ struct ReferencePlan {
 /// `scene_version`: of the Blender that wrote the scene's data. Throws Error(usage) where the settings name a
 /// fault or version that does not exist.
 [[nodiscard]] ReferencePlan plan_reference(const ResolvedConfig& config, const std::string& scene_version);
+
+/// Of a bake by the tracer ([bake] engine = "embree"), which goes by the settings of bakes alone. Throws
+/// Error(usage) where these ask for something that only Cycles does.
+[[nodiscard]] ReferencePlan plan_traced_bake(const ResolvedConfig& config, const std::string& scene_version);
 
 /// "3.4.1", "4.3", "5.2.2 LTS". Throws Error(usage), naming `where`.
 [[nodiscard]] BlenderVersion blender_version_of(const std::string& text, const std::string& where);

@@ -31,8 +31,10 @@ namespace {
 struct Kind {
   bool flip_green = false;
   int samples = 0, seed = 0;
+  double error = 0;
   bool operator<(const Kind& other) const {
-    return std::tie(flip_green, samples, seed) < std::tie(other.flip_green, other.samples, other.seed);
+    return std::tie(flip_green, samples, seed, error) <
+           std::tie(other.flip_green, other.samples, other.seed, other.error);
   }
 };
 
@@ -57,6 +59,13 @@ double relative_error(const Gathered& gathered) {
   return worst;
 }
 
+/// Paths for each covered texel; blocks of texels have more or fewer where an error was asked for.
+int mean_samples(const Gathered& gathered) {
+  double texels = 0;
+  for (const float covered : gathered.coverage.data()) texels += covered;
+  return texels > 0 ? static_cast<int>(std::lround(double(gathered.paths) / texels)) : 0;
+}
+
 /// Input of every step.
 struct ReferenceInput {
   const ReferenceSubject& subject;
@@ -67,6 +76,10 @@ struct ReferenceInput {
   [[nodiscard]] const DiffuseScene& scene() const { return subject.scene.diffuse_scene(); }
   [[nodiscard]] int samples(std::size_t target) const {
     return plan.most_samples > 0 ? plan.most_samples : subject.list.settings[target].samples;
+  }
+  /// Relative standard error that is enough; 0: the samples decide.
+  [[nodiscard]] double error(std::size_t target) const {
+    return plan.is_bake ? subject.list.settings[target].noise / 100 : plan.error;
   }
   /// Texels x samples, to which the time of a target is about proportional.
   [[nodiscard]] double work(std::size_t target) const {
@@ -84,20 +97,28 @@ struct ReferenceResult {
 ReferenceRecord new_record(const ReferenceInput& input) {
   using Model = ReferenceSettings::Model;
   return {name_of(input.plan.flat_normal_map ? Model::flat_normal_map : Model::truth),
-          names_of(input.plan.faults), input.plan.error,
-          std::vector<ReferenceRecord::Traced>(input.targets().size()), input.scene().outside};
+          names_of(input.plan.faults),
+          input.plan.error,
+          std::vector<ReferenceRecord::Traced>(input.targets().size()),
+          input.scene().outside,
+          0,
+          input.plan.is_bake};
 }
 
 LightmapMetadata metadata_of(const ReferenceInput& input, const ReferenceRecord& record, std::size_t i) {
   const ReferencePlan& plan = input.plan;
   LightmapMetadata metadata =
       target_metadata(input.targets()[i], input.subject.list.settings[i], input.settings.output);
-  metadata.recipe = "reference";
+  metadata.recipe = plan.is_bake ? traced_name : "reference";
   metadata.horizon = plan.flat_normal_map ? "Blender's" : "exact";
   metadata.footprint = name_of(plan.footprint);
   metadata.samples = input.samples(i);
   metadata.bounces = plan.bounces;
   metadata.blender_version = plan.blender_version;
+  if (plan.is_bake) {
+    metadata.engine = name_of(BakingSettings::Engine::embree);
+    return metadata;
+  }
   metadata.model = record.model;
   metadata.faults = record.faults.empty() ? "none" : fmt::format("{}", fmt::join(record.faults, ","));
   metadata.error = static_cast<float>(plan.error);
@@ -130,7 +151,7 @@ GatherOptions options_for(const ReferenceInput& input, const Kind& kind) {
   options.footprint = plan.footprint;
   options.past_edge = plan.past_edge;
   options.samples = kind.samples;
-  options.error = plan.error;
+  options.error = kind.error;
   options.bounces = plan.bounces;
   options.seed = static_cast<std::uint64_t>(kind.seed);
   options.threads = plan.threads;
@@ -153,14 +174,16 @@ Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bo
   }
   TargetBakes bakes;
   ExtraLayers extra;
+  const bool with_errors = !input.plan.is_bake || has_error_layers(input.settings.output);
   for (std::size_t k = 0; k < gathered.directions.size(); ++k) {
     const BasisDirection& basis = input.subject.bases[k];
     bakes.bases.push_back({basis.name, basis.direction, std::move(gathered.directions[k].radiance)});
-    extra.standard_errors.push_back({basis.name, std::move(gathered.directions[k].standard_error)});
+    if (with_errors)
+      extra.standard_errors.push_back({basis.name, std::move(gathered.directions[k].standard_error)});
   }
   bakes.coverage = std::move(gathered.coverage);
   if (input.settings.output.frames) fill_frames(*header.surface, bakes);
-  extra.validity = std::move(gathered.validity);
+  if (!input.plan.is_bake) extra.validity = std::move(gathered.validity);
   extra.sh = std::move(gathered.sh);
   if (y_down) flip_harmonics(extra.sh);
   try {
@@ -185,6 +208,7 @@ void trace(const ReferenceInput& input, const Kind& kind, const std::vector<std:
     const std::size_t i = targets[index];
     result.record.traced[i] = {gathered.paths, gathered.rays, relative_error(gathered)};
     result.outcome.rays += gathered.rays;
+    if (input.plan.is_bake && kind.error > 0) result.headers[i].metadata.samples = mean_samples(gathered);
     result.outcome.deliveries[i] = delivered(input, result.headers[i], kind.flip_green, std::move(gathered));
     result.headers[i].surface.reset();
   };
@@ -201,7 +225,7 @@ void trace_all(const ReferenceInput& input, const std::string& title, ReferenceR
   double total = 0, done = 0;
   for (std::size_t i = 0; i < input.targets().size(); ++i) {
     const Target& target = input.targets()[i];
-    const Kind kind{target.flip_green, input.samples(i), input.subject.list.settings[i].seed};
+    const Kind kind{target.flip_green, input.samples(i), input.subject.list.settings[i].seed, input.error(i)};
     groups[kind].push_back(i);
     total += input.work(i);
   }

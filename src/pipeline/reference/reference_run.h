@@ -1,4 +1,5 @@
-// pipeline/reference/reference_run.h - one reference: targets are traced and become lightmaps and a manifest.
+// pipeline/reference/reference_run.h - one reference, or a bake by the tracer: targets are traced and become
+// lightmaps and a manifest.
 #pragma once
 
 #include "config/bake_settings.h"
