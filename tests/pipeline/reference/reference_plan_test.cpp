@@ -1,6 +1,7 @@
 #include "pipeline/reference/reference_plan.h"
 
 #include "base/error.h"
+#include "config/project_file.h"
 #include "config/value.h"
 
 #include <map>
@@ -49,6 +50,60 @@ TEST(ReferencePlan, PastAnEdgeItDoesAsTheBlenderComparedWith) {
   EXPECT_EQ(plan_reference(with({}), "3.4.1").past_edge, PastEdge::mirror);
   EXPECT_EQ(plan_reference(with({}), "4.3.2").past_edge, PastEdge::retry);
   EXPECT_EQ(plan_reference(with({{"blender_version", "5.2"}}), "3.4.1").past_edge, PastEdge::retry);
+}
+
+std::string refusal_of_bake(const ResolvedConfig& config) {
+  try {
+    (void)plan_traced_bake(config, "3.4.1");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(TracedBake, GoesByTheSettingsOfBakesAlone) {
+  const ReferencePlan plan = plan_traced_bake(with({{"error", "1"},
+                                                    {"footprint", "centre"},
+                                                    {"sh", "2"},
+                                                    {"model", "flat-normal-map"},
+                                                    {"threads", "3"}}),
+                                              "3.4.1");
+  EXPECT_TRUE(plan.is_bake);
+  EXPECT_FALSE(plan.flat_normal_map);
+  EXPECT_EQ(plan.error, 0);
+  EXPECT_EQ(plan.sh, 0);
+  EXPECT_EQ(plan.most_samples, 0);
+  EXPECT_EQ(plan.footprint, Footprint::half);
+  EXPECT_EQ(plan.past_edge, PastEdge::mirror);
+  EXPECT_EQ(plan.bounces, 32);
+  EXPECT_EQ(plan.threads, 3);
+  EXPECT_EQ(plan_traced_bake(with({{"bounces", "5"}}), "5.2.2 LTS").bounces, 5);
+  EXPECT_EQ(plan_traced_bake(with({}), "5.2.2 LTS").footprint, Footprint::full);
+}
+
+TEST(TracedBake, RefusesWhatOnlyCyclesDoes) {
+  EXPECT_EQ(refusal_of_bake(with({{"recipe", "flat-normal-map"}})),
+            "flag --recipe: flat-normal-map is a recipe for Cycles; leave engine embree out, or trace the "
+            "recipe's errors by rnmbake reference --model flat-normal-map");
+  EXPECT_EQ(
+      refusal_of_bake(with({{"device", "CUDA"}})),
+      "flag --device: the embree engine computes on the CPU; leave device out, or bake with engine cycles");
+  EXPECT_EQ(refusal_of_bake(with({{"clamp", "10"}})),
+            "flag --clamp: the embree engine clamps nothing; leave clamp out, or bake with engine cycles");
+  EXPECT_EQ(refusal_of_bake(with({{"horizon", "clamp"}, {"dispatch", "basis"}})), "accepted");
+}
+
+TEST(TracedBake, RefusesTheClampOfAnOverrideThatHolds) {
+  const ProjectFile project =
+      parse_project("[[override]]\nobjects = [\"lamp*\"]\nclamp = 4.0\n", "hall.toml");
+  EXPECT_EQ(refusal_of_bake(resolve(project, {}, {})),
+            "hall.toml:3: the embree engine clamps nothing; leave clamp out, or bake with engine cycles");
+  const Setting& clamp = *find_setting("clamp");
+  EXPECT_EQ(
+      refusal_of_bake(resolve(
+          project, {}, {{&clamp, parse_value(clamp, "0", "flag"), SettingSource::flag, "flag --clamp"}})),
+      "accepted");
 }
 
 TEST(ReferencePlan, TheTruthHasNoFaults) {

@@ -103,6 +103,34 @@ TEST(ReferenceRun, TheHeaderAndTheManifestSayWhatItIs) {
   EXPECT_GT(floor.at("standard_error").get<double>(), 0);
 }
 
+TEST(ReferenceRun, OfABakeIsOne) {
+  Tracing tracing(floor_under_sky());
+  tracing.plan.is_bake = true;
+  tracing.plan.bounces = 7;
+  tracing.exported.diffuse_scene.outside = {{"object 'floor'", {"glossy"}}};
+  (void)tracing.run();
+  const LayeredImage image = tracing.read("floor.exr");
+  const LightmapMetadata metadata = read_metadata(image, "floor.exr");
+  EXPECT_EQ(metadata.engine, "embree");
+  EXPECT_EQ(metadata.recipe, "traced");
+  EXPECT_EQ(metadata.model, "");
+  EXPECT_EQ(metadata.bounces, 7);
+  EXPECT_EQ(image.find("validity"), nullptr);
+  EXPECT_NE(image.find("rnm2_stderr"), nullptr);
+  EXPECT_FALSE(image.attributes.contains("rnmbake:faults"));
+  const nlohmann::json manifest = tracing.manifest();
+  EXPECT_EQ(manifest.at("kind"), "bake");
+  EXPECT_EQ(manifest.at("engine"), "embree");
+  EXPECT_EQ(manifest.at("recipe"), "traced");
+  EXPECT_FALSE(manifest.contains("model"));
+  EXPECT_EQ(manifest.at("outside_model").at(0).at("owner"), "object 'floor'");
+  EXPECT_EQ(manifest.at("objects").at(0).at("paths"), 64 * 16);
+
+  tracing.settings.output.depth = Depth::half;
+  (void)tracing.run();
+  EXPECT_EQ(tracing.read("floor.exr").find("rnm2_stderr"), nullptr);
+}
+
 TEST(ReferenceRun, WhatTheRecipeBakesBlackIsDeliveredBlack) {
   ExportResult scene = floor_under_sky();
   scene.diffuse_scene.materials[0].albedo = Vec3(0);
