@@ -140,6 +140,49 @@ class Changes(Reuse):
         self.assertFalse((self.folder / "out").exists())
 
 
+class Traced(Reuse):
+    """Engine embree."""
+    EMBREE = (*FEW, "--engine", "embree")
+
+    def test_nothing_starts_no_blender(self):
+        self.assertIn("lambert_entry.py", self.bake(*self.EMBREE)[0])
+        before = self.pictures()
+        launches, said = self.bake(*self.EMBREE)
+        self.assertEqual(launches, [])
+        self.assertIn("up to date", said)
+        self.assertEqual(self.bake(*self.EMBREE, "--force")[1].count("up to date"), 0)
+        self.assertEqual(self.pictures(), before)
+
+    def test_the_other_engine_and_light_are_named(self):
+        self.bake(*FEW)
+        before = self.pictures()
+        self.assertIn('because setting engine = "embree"', self.bake(*self.EMBREE)[1])
+        traced = self.pictures()
+        self.assertFalse(set(before.items()) & set(traced.items()))
+        self.change("lamp")
+        self.assertIn("light 'Area'", self.bake(*self.EMBREE, "--why")[1])
+        self.assertFalse(set(traced.items()) & set(self.pictures().items()))
+
+    def test_an_exported_scene_needs_no_blender(self):
+        exported = self.folder / "room.rnmscene"
+        done = subprocess.run([binary(), "export", str(self.scene), "-o", str(exported)], env=environment(),
+                              stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.bake(*self.EMBREE)
+        before = self.pictures()
+        self.scene, self.wrapper = exported, self.folder / "nowhere"
+        self.bake(*self.EMBREE, out="alone")
+        self.assertEqual(self.pictures("alone"), before)
+        self.assertIn("up to date", self.bake(*self.EMBREE, out="alone")[1])
+
+    def test_dry_run_writes_nothing(self):
+        done = subprocess.run(self.command(*self.EMBREE, "--dry-run"), env=self.environment(), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        self.assertEqual((done.returncode, done.stdout.splitlines()),
+                         (OK, [f"{name}: 8 samples to bake" for name in ("floor", "wall", "box")]))
+        self.assertFalse((self.folder / "out").exists())
+
+
 class Killed(Reuse):
     def test_goes_on_to_the_same_bytes(self):
         self.bake(*MANY, out="whole", cache="none")

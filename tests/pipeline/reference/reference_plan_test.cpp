@@ -91,7 +91,10 @@ TEST(TracedBake, RefusesWhatOnlyCyclesDoes) {
       "flag --device: the embree engine computes on the CPU; leave device out, or bake with engine cycles");
   EXPECT_EQ(refusal_of_bake(with({{"clamp", "10"}})),
             "flag --clamp: the embree engine clamps nothing; leave clamp out, or bake with engine cycles");
-  EXPECT_EQ(refusal_of_bake(with({{"horizon", "clamp"}, {"dispatch", "basis"}})), "accepted");
+  EXPECT_EQ(refusal_of_bake(with({{"time", "10m"}})),
+            "flag --time: the embree engine does not go by the clock; give noise or samples, or bake with "
+            "engine cycles");
+  EXPECT_EQ(refusal_of_bake(with({{"horizon", "clamp"}, {"dispatch", "basis"}, {"noise", "2"}})), "accepted");
 }
 
 TEST(TracedBake, RefusesTheClampOfAnOverrideThatHolds) {

@@ -131,6 +131,24 @@ TEST(ReferenceRun, OfABakeIsOne) {
   EXPECT_EQ(tracing.read("floor.exr").find("rnm2_stderr"), nullptr);
 }
 
+TEST(ReferenceRun, OfABakeStopsAtEachObjectsNoise) {
+  Tracing tracing(floor_under_sky());
+  tracing.plan.is_bake = true;
+  ObjectSettings& floor_settings = tracing.exported.list.settings.at(0);
+  floor_settings.samples = 1 << 16;
+  floor_settings.noise = 1;
+  (void)tracing.run();
+  const nlohmann::json manifest = tracing.manifest();
+  const nlohmann::json& floor = manifest.at("objects").at(0);
+  EXPECT_LE(floor.at("standard_error").get<double>(), 0.01);
+  EXPECT_GT(floor.at("standard_error").get<double>(), 0.005);
+  const int samples = floor.at("samples").get<int>();
+  EXPECT_LT(samples, 1 << 16);
+  EXPECT_NEAR(samples, floor.at("paths").get<double>() / 64, 0.5);
+  EXPECT_EQ(read_metadata(tracing.read("floor.exr"), "floor.exr").samples, samples);
+  EXPECT_FALSE(manifest.contains("error"));
+}
+
 TEST(ReferenceRun, WhatTheRecipeBakesBlackIsDeliveredBlack) {
   ExportResult scene = floor_under_sky();
   scene.diffuse_scene.materials[0].albedo = Vec3(0);
