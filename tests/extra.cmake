@@ -111,3 +111,9 @@ foreach(CHECK formats more_formats threejs)
             $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/probes/formats/${CHECK}_check.py -v)
   set_tests_properties(probes.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
 endforeach()
+
+# Scenes of strangers, whose scripts try to get out of --sandbox.
+add_test(NAME sandbox.check
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/sandbox/sandbox_check.py -v)
+set_tests_properties(sandbox.check PROPERTIES LABELS blender TIMEOUT 1200 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")

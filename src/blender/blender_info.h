@@ -19,10 +19,11 @@ inline constexpr BlenderVersion oldest_blender = {3, 4, 0};
 struct BlenderInfo {
   std::filesystem::path executable;
   BlenderVersion version;
-  std::string version_text;          // as printed: "3.4.1"
-  std::string build;                 // build date, hash, platform where printed
-  std::vector<std::string> devices;  // "CPU", "CUDA", ...: compute devices that Cycles lists
-  bool has_numpy = false;            // the glTF importer needs it
+  std::vector<std::filesystem::path> folders;  // beside the executable's own, that it consists of
+  std::string version_text;                    // as printed: "3.4.1"
+  std::string build;                           // build date, hash, platform where printed
+  std::vector<std::string> devices;            // "CPU", "CUDA", ...: compute devices that Cycles lists
+  bool has_numpy = false;                      // the glTF importer needs it
   bool has_denoiser = false;
 };
 

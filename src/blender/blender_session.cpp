@@ -49,6 +49,7 @@ LaunchLimits BlenderSession::limits() const {
   LaunchLimits limits;
   limits.stall_seconds = settings().run.timeout;
   limits.total_seconds = settings().run.launch_timeout;
+  limits.memory_bytes = static_cast<std::size_t>(settings().run.memory_max) << 20;
   return limits;
 }
 

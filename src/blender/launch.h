@@ -22,11 +22,14 @@ struct Launch {
   nlohmann::json request;          // becomes request.json, with "nonce" and "folder" added
   std::filesystem::path folder;
   int threads = 0;  // 0: Blender's own choice
+  /// The one file that the script writes outside `folder`; in the request as "save_as". Must exist.
+  std::optional<std::filesystem::path> save_as = {};
 };
 
 struct LaunchLimits {
-  double stall_seconds = 600;  // without progress (blender/launch_watch.h, process/stall.h): hung
-  double total_seconds = 0;    // 0: no limit
+  double stall_seconds = 600;    // without progress (blender/launch_watch.h, process/stall.h): hung
+  double total_seconds = 0;      // 0: no limit
+  std::size_t memory_bytes = 0;  // of all its processes, resident; 0: no limit
 };
 
 /// One line of progress.jsonl: the work that begins.
@@ -48,11 +51,12 @@ struct Finished {
 /// Cause of a missing result. `message` is one line, with the object if the script knew it.
 struct LaunchFailure {
   enum class Kind {
-    refused,    // by the script, which names the scene's defect (ExitCode in `code`)
-    script,     // a Python exception: a defect of ours; the traceback is in `details`
-    crashed,    // ended by a signal of its own (SIGSEGV, SIGABRT)
-    killed,     // SIGKILL that we did not send: most likely out of memory
-    hung,       // ended by us: no progress, or more than the limit of output
+    refused,  // by the script, which names the scene's defect (ExitCode in `code`)
+    script,   // a Python exception: a defect of ours; the traceback is in `details`
+    crashed,  // ended by a signal of its own (SIGSEGV, SIGABRT)
+    killed,   // by us past LaunchLimits::memory_bytes, or by a SIGKILL that we did not send: most likely out
+              // of memory
+    hung,     // ended by us: no progress, or more than the limit of output
     outlasted,  // ended by us after LaunchLimits::total_seconds
     no_result,  // exit 0, but no result file with our nonce
     stopped,    // the user interrupted

@@ -113,6 +113,14 @@ LaunchFailure ended_by_us(const ProcessResult& process, const LaunchLimits& limi
                                limits.total_seconds, in_words(last)),
                    words);
   }
+  if (process.ended_by == EndedBy::memory_limit) {
+    return failure(
+        Kind::killed, 0,
+        fmt::format("Blender used more than {} MiB and was ended, at {}; raise --memory-max, or try "
+                    "a smaller --atlas-limit",
+                    limits.memory_bytes >> 20, in_words(last)),
+        words);
+  }
   if (process.ended_by == EndedBy::output_limit) {
     return failure(Kind::hung, 0,
                    fmt::format("Blender printed more than {} MiB and was ended, at {}",
@@ -172,6 +180,12 @@ LaunchFailure crash_or_newer_file(const Launch& launch, const BlenderInfo& info,
 }
 
 LaunchFailure without_answer(const Launch& launch, const ProcessResult& process, const std::string& words) {
+  if (words.starts_with("bwrap: ")) {
+    return failure(Kind::refused, static_cast<int>(ExitCode::environment),
+                   fmt::format("the sandbox cannot be made: {}; rnmbake doctor says more",
+                               words.substr(0, words.find('\n'))),
+                   words);
+  }
   const std::string load = load_error(words);
   if (process.exit_code == 1 && launch.scene && !load.empty()) {
     return failure(Kind::refused, static_cast<int>(ExitCode::invalid_input),

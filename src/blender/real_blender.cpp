@@ -7,6 +7,7 @@
 #include "blender/launch_watch.h"
 #include "blender/outcome.h"
 #include "blender/private_environment.h"
+#include "blender/sandbox/sandbox.h"
 #include "process/run.h"
 #include "process/tree.h"
 
@@ -42,6 +43,7 @@ void prepare(const Launch& launch, const std::string& nonce) {
   nlohmann::json request = launch.request.is_null() ? nlohmann::json::object() : launch.request;
   request["nonce"] = nonce;
   request["folder"] = fs::absolute(launch.folder).string();
+  if (launch.save_as) request["save_as"] = fs::absolute(*launch.save_as).string();
   try {
     write_atomically(launch.folder / "request.json", request.dump());
   } catch (const nlohmann::json::type_error&) {
@@ -69,6 +71,59 @@ std::optional<LaunchFailure> unreadable_scene(const Launch& launch, const Blende
     failure.message = error.what();
   }
   return failure.message.empty() ? std::nullopt : std::optional(failure);
+}
+
+/// The folder that takes the place of the one where the script saves its file.
+fs::path staging(const Launch& launch) {
+  return launch.folder / "saved";
+}
+
+Sandbox sandbox_for(const LaunchTrust::Sandboxed& trust, const BlenderInfo& info, const ScriptFolder& scripts,
+                    const Launch& launch) {
+  Sandbox sandbox;
+  sandbox.gpu = trust.gpu;
+  sandbox.read = {fs::absolute(info.executable).parent_path()};
+  std::error_code error;
+  if (const fs::path real = fs::canonical(info.executable, error); !error)
+    sandbox.read.push_back(real.parent_path());
+  for (const fs::path& folder : sandbox.read) refuse_broad_folder(folder, info.executable.string());
+  sandbox.read.push_back(scripts.path());
+  sandbox.read.insert(sandbox.read.end(), info.folders.begin(), info.folders.end());
+  sandbox.read.insert(sandbox.read.end(), trust.read.begin(), trust.read.end());
+  std::vector<fs::path> scenes;
+  if (launch.scene) scenes.push_back(launch.scene->path());
+  if (launch.request.is_object() && launch.request.contains("scene"))
+    scenes.emplace_back(launch.request["scene"].get<std::string>());
+  for (const fs::path& scene : scenes) {
+    sandbox.read.push_back(fs::absolute(scene).parent_path());
+    refuse_broad_folder(sandbox.read.back(), scene.string());
+    if (const fs::path real = fs::canonical(scene, error); !error) sandbox.read.push_back(real);
+  }
+  sandbox.write = launch.folder;
+  if (launch.save_as) {
+    make_folders(staging(launch));
+    sandbox.staged = {fs::absolute(*launch.save_as).parent_path(), staging(launch)};
+  }
+  return sandbox;
+}
+
+/// What a sandboxed launch has left, before anybody reads it. The file that it saved goes to its place.
+LaunchOutcome checked(LaunchOutcome outcome, const Launch& launch, const std::optional<std::string>& link) {
+  if (!std::holds_alternative<Finished>(outcome)) return outcome;
+  if (link) {
+    LaunchFailure failure;
+    failure.kind = LaunchFailure::Kind::refused;
+    failure.code = static_cast<int>(ExitCode::invalid_input);
+    failure.message = fmt::format(
+        "{}: something in it left a link or pipe among the results ({}), which leads out of the sandbox",
+        launch.scene ? launch.scene->string() : launch.entry, *link);
+    return failure;
+  }
+  if (launch.save_as) {
+    fs::copy_file(staging(launch) / launch.save_as->filename(), *launch.save_as,
+                  fs::copy_options::overwrite_existing);
+  }
+  return outcome;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -104,15 +159,24 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
   prepare(launch, nonce);
   ProcessOptions options;
   options.argv = launch_argv(info, scripts, trust, launch);
-  options.environment = private_environment(launch.folder, scripts.bytecode());
+  options.environment = private_environment(launch.folder, trust.sandbox ? "" : scripts.bytecode());
+  if (trust.sandbox) {
+    options.argv = sandboxed(options.argv, sandbox_for(*trust.sandbox, info, scripts, launch));
+    options.bare = true;
+    const auto ours = sandbox_environment(trust.sandbox->gpu);
+    options.environment.insert(options.environment.end(), ours.begin(), ours.end());
+  }
   options.output = launch.folder / "stdout.log";
   options.total_seconds = limits.total_seconds;
   options.stall_seconds = limits.stall_seconds;
   options.output_bytes = most_output_bytes;
+  options.memory_bytes = limits.memory_bytes;
   log::debug("starting {}", joined(options.argv));
   LaunchWatch watch(launch.folder, on_progress);
   const ProcessResult process = run_process(options, [&](const ProcessStatus&) { return watch.poll(); });
-  return judge(launch, info, limits, nonce, process, watch);
+  if (!trust.sandbox) return judge(launch, info, limits, nonce, process, watch);
+  const std::optional<std::string> link = remove_links(launch.folder);
+  return checked(judge(launch, info, limits, nonce, process, watch), launch, link);
 }
 
 RealBlender::RealBlender(BlenderInfo info, const Options& options)

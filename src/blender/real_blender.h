@@ -13,6 +13,13 @@ namespace rnmbake {
 
 struct LaunchTrust {
   bool allow_scripts = false;  // scripts and scripted drivers inside the .blend may run (-y instead of -Y)
+  /// Launches run in a sandbox (blender/sandbox/) that may read these beside the scene's folder; none: as we
+  /// do.
+  struct Sandboxed {
+    std::vector<std::filesystem::path> read;
+    bool gpu = false;
+  };
+  std::optional<Sandboxed> sandbox = std::nullopt;
 };
 
 /// The command line of one launch. Options come before the file and the script: after them Blender ignores

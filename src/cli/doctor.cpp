@@ -8,6 +8,7 @@
 #include "blender/find.h"
 #include "blender/probe.h"
 #include "blender/real_blender.h"
+#include "blender/sandbox/sandbox.h"
 #include "blender/scripts.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ struct Machine {
 
 struct Findings {
   std::optional<BlenderInfo> blender;
+  std::optional<std::string> no_sandbox;  // why there is none
   Machine machine;
   std::vector<Missing> missing;
 };
@@ -96,6 +98,7 @@ nlohmann::json as_json(const Findings& findings) {
                        {"numpy", blender->has_numpy},
                        {"denoiser", blender->has_denoiser}};
   }
+  json["sandbox"] = {{"usable", !findings.no_sandbox}, {"why_not", findings.no_sandbox.value_or("")}};
   const Machine& machine = findings.machine;
   json["threads"] = machine.threads;
   json["memory_bytes"] = machine.memory_bytes;
@@ -126,6 +129,7 @@ void write_table(const Findings& findings, std::ostream& out) {
   } else {
     line("Blender", "none that can be used");
   }
+  line("sandbox", findings.no_sandbox ? "no (only --sandbox needs it): " + *findings.no_sandbox : "yes");
   const Machine& machine = findings.machine;
   line("OpenImageIO", RNMBAKE_OPENIMAGEIO_VERSION);
   line("threads", std::to_string(machine.threads));
@@ -146,6 +150,7 @@ int doctor(const DoctorOptions& options, std::ostream& out) {
   Findings findings;
   findings.machine = probe_machine();
   check_blender(options, findings);
+  findings.no_sandbox = sandbox_obstacle();
   find_missing(findings);
   if (options.json) {
     // A path need not be UTF-8; JSON must.

@@ -42,6 +42,8 @@ std::string value_name(SettingKind kind) {
       return "NAME";
     case SettingKind::text_list:
       return "A,B,...";
+    case SettingKind::path_list:
+      return "DIR,DIR,...";
     case SettingKind::choice:
       return "CHOICE";
     case SettingKind::path:
@@ -84,7 +86,7 @@ void SettingsFlags::add(CLI::App& command, const Setting& setting, const std::st
   const std::string help = help_text(setting);
   CLI::Option* option = setting.kind == SettingKind::boolean ? command.add_flag(setting.flag_names(), help)
                                                              : command.add_option(setting.flag_names(), help);
-  const bool is_list = setting.kind == SettingKind::text_list;
+  const bool is_list = setting.is_list();
   option->type_name(value_name(setting.kind))->group(group);
   option->multi_option_policy(is_list ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);
   options_.emplace_back(&setting, option);
@@ -94,7 +96,7 @@ std::vector<SettingOverride> SettingsFlags::given_flags() const {
   std::vector<SettingOverride> flags;
   for (const auto& [setting, option] : options_) {
     if (option->count() == 0) continue;
-    const bool is_list = setting->kind == SettingKind::text_list;
+    const bool is_list = setting->is_list();
     const std::string text = is_list ? joined(option->results()) : option->results().back();
     std::string where = "flag " + setting->flag();
     SettingValue value = parse_value(*setting, text, where);

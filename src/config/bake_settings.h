@@ -108,6 +108,9 @@ struct RunSettings {
   int threads = 0;                // for each Blender; 0: all cores shared among the jobs
   int timeout = 600;              // seconds without progress
   int launch_timeout = 0;         // seconds; 0: no limit
+  int memory_max = 0;             // MiB of one Blender; 0: no limit
+  bool sandbox = false;
+  std::vector<std::filesystem::path> sandbox_read;
   int retries = 1;
   std::string time;             // how long a bake may take; "": as long as it needs
   std::filesystem::path cache;  // folder of results that are kept; "": the user's own; no_cache: none

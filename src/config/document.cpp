@@ -42,6 +42,8 @@ std::string range_text(const Setting& setting) {
       return "text";
     case SettingKind::text_list:
       return "list of texts";
+    case SettingKind::path_list:
+      return "list of paths";
     case SettingKind::path:
       return "path";
     case SettingKind::program:
@@ -57,7 +59,7 @@ bool is_numeric(const Setting& setting) {
 /// "0: off", "": the active-render layer".
 std::string meaning(const Setting& setting) {
   if (setting.empty_means.empty()) return "";
-  const std::string_view empty = setting.kind == SettingKind::text_list ? "[]" : "\"\"";
+  const std::string_view empty = setting.is_list() ? "[]" : "\"\"";
   return fmt::format("`{}`: {}", is_numeric(setting) ? "0" : empty, setting.empty_means);
 }
 

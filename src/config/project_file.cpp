@@ -61,6 +61,7 @@ std::optional<SettingValue> value_of(SettingKind kind, const toml::node& node) {
       if (const auto whole = node.value_exact<std::int64_t>()) return static_cast<double>(*whole);
       return as<double>(node);
     case SettingKind::text_list:
+    case SettingKind::path_list:
       return text_list(node);
     case SettingKind::text:
     case SettingKind::choice:
@@ -99,6 +100,9 @@ SettingOverride read_value(const Reader& reader, const Setting& setting, const t
   *value = checked(setting, std::move(*value), where);
   if (setting.kind == SettingKind::path && std::get<std::string>(*value) != setting.no_path)
     *value = reader.from_here(std::get<std::string>(*value));
+  if (setting.kind == SettingKind::path_list) {
+    for (std::string& path : std::get<std::vector<std::string>>(*value)) path = reader.from_here(path);
+  }
   if (setting.kind == SettingKind::program) {
     const std::string& program = std::get<std::string>(*value);
     if (program.find('/') != std::string::npos) *value = reader.from_here(program);

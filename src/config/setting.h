@@ -19,8 +19,9 @@ enum class SettingKind {
   text,
   text_list,
   choice,
-  path,     // in a project file: relative to that file; elsewhere: to the working directory
-  program,  // as path where it holds a slash; otherwise a name to look up in PATH
+  path,       // in a project file: relative to that file; elsewhere: to the working directory
+  path_list,  // each as path
+  program,    // as path where it holds a slash; otherwise a name to look up in PATH
 };
 
 /// A value before it has a place: choices and paths are text.
@@ -48,6 +49,9 @@ struct Setting {
   bool per_object = false;                // may stand in an [[override]]
   std::vector<Purpose> purposes;          // whose flag it is; none: everybody's
 
+  [[nodiscard]] bool is_list() const {
+    return kind == SettingKind::text_list || kind == SettingKind::path_list;
+  }
   [[nodiscard]] bool serves(Purpose purpose) const;
 
   [[nodiscard]] std::string flag() const;         // "--texels-per-unit"

@@ -75,6 +75,7 @@ SettingKind kind_of() {
   if constexpr (std::is_same_v<T, std::string>) return SettingKind::text;
   if constexpr (std::is_same_v<T, std::vector<std::string>>) return SettingKind::text_list;
   if constexpr (std::is_same_v<T, std::filesystem::path>) return SettingKind::path;
+  if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) return SettingKind::path_list;
   if constexpr (std::is_enum_v<T>) return SettingKind::choice;
 }
 
@@ -86,6 +87,8 @@ SettingValue to_value(const T& field) {
     return std::int64_t{field};
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     return field.string();
+  } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
+    return std::vector<std::string>(field.begin(), field.end());
   } else {
     return field;
   }
@@ -101,6 +104,9 @@ void from_value(T& field, const SettingValue& value) {
     field = static_cast<int>(std::get<std::int64_t>(value));
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     field = std::get<std::string>(value);
+  } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
+    const auto& texts = std::get<std::vector<std::string>>(value);
+    field = T(texts.begin(), texts.end());
   } else {
     field = std::get<T>(value);
   }

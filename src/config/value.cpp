@@ -111,6 +111,7 @@ SettingValue parse_value(const Setting& setting, std::string_view text, const st
     case SettingKind::real:
       return checked(setting, take(number<double>(without_unit(setting, text))), where);
     case SettingKind::text_list:
+    case SettingKind::path_list:
       return items(text);
     case SettingKind::choice:
       return choice_in(setting, std::string(trimmed(text)), where);
@@ -156,6 +157,8 @@ std::string accepted(const Setting& setting) {
       return "text";
     case SettingKind::text_list:
       return "a list of texts";
+    case SettingKind::path_list:
+      return "a list of paths";
     case SettingKind::path:
       return "a path";
     case SettingKind::program:

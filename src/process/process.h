@@ -15,11 +15,13 @@ struct ProcessOptions {
   std::vector<std::string> argv;  // argv[0] is looked up in PATH if it holds no slash
   /// Applied in order to our own environment; no value: removed.
   std::vector<std::pair<std::string, std::optional<std::string>>> environment;
+  bool bare = false;             // the environment begins empty, not as ours
   std::filesystem::path folder;  // to run in; empty: ours
   std::filesystem::path output;  // file for stdout and stderr; empty: captured into ProcessResult::output
   double total_seconds = 0;      // 0: no limit
   double stall_seconds = 0;      // without progress, see process/stall.h; 0: no limit
   std::size_t output_bytes = 0;  // that it may print, seen at every tick; 0: no limit
+  std::size_t memory_bytes = 0;  // that the whole tree may have resident, seen at every tick; 0: no limit
   double grace_seconds = 5;      // between SIGTERM and SIGKILL
   double tick_seconds = 0.25;    // between two looks at the process
 };
@@ -35,7 +37,7 @@ struct ProcessStatus {
 using ProcessTick = std::function<bool(const ProcessStatus&)>;
 
 struct ProcessResult {
-  enum class EndedBy { itself, total_limit, stall, output_limit, stop_request };
+  enum class EndedBy { itself, total_limit, stall, output_limit, memory_limit, stop_request };
   EndedBy ended_by = EndedBy::itself;
   int exit_code = 0;  // meaningless if `signal` is set
   int signal = 0;     // that ended the process; 0: it returned

@@ -102,11 +102,14 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   ProcessResult to_the_end() {
-    double next_look = elapsed() + std::min(0.03, options_.tick_seconds);
+    // Memory may grow by gigabytes in a second.
+    const double tick =
+        options_.memory_bytes > 0 ? std::min(0.1, options_.tick_seconds) : options_.tick_seconds;
+    double next_look = elapsed() + std::min(0.03, tick);
     while (!ended()) {
       if (elapsed() >= next_look) {
         look();
-        next_look = elapsed() + options_.tick_seconds;
+        next_look = elapsed() + tick;
       }
       enforce_limits();
       nap();
@@ -135,6 +138,7 @@ class Run {
     const TreeUsage usage = tree_.look();
     result_.cpu_seconds = std::max(result_.cpu_seconds, usage.cpu_seconds);
     result_.peak_bytes = std::max({result_.peak_bytes, usage.peak_bytes, usage.resident_bytes});
+    resident_bytes_ = usage.resident_bytes;
     const std::size_t bytes = output_.size();
     const bool progressed = tick_ && tick_({elapsed(), usage.cpu_seconds, usage.resident_bytes, bytes});
     stall_.observe(steady_clock().now(), usage.cpu_seconds, usage.wants_core, progressed);
@@ -151,16 +155,19 @@ class Run {
       end(By::stall);
     } else if (options_.output_bytes > 0 && output_.size() > options_.output_bytes) {
       end(By::output_limit);
+    } else if (options_.memory_bytes > 0 && resident_bytes_ > options_.memory_bytes) {
+      end(By::memory_limit);
     }
   }
 
-  /// SIGTERM to all, SIGKILL after the grace period.
+  /// SIGTERM to all, SIGKILL after the grace period; at once where memory would go on growing.
   void end(ProcessResult::EndedBy why) {
     if (!ending_since_) {
       ending_since_ = elapsed();
       result_.ended_by = why;
       signal_tree(SIGTERM);
       signal_tree(SIGCONT);  // a stopped process would not notice
+      if (why == ProcessResult::EndedBy::memory_limit) signal_tree(SIGKILL);
     } else if (elapsed() - *ending_since_ > options_.grace_seconds) {
       signal_tree(SIGKILL);
     }
@@ -218,6 +225,7 @@ class Run {
   RunningGroup group_;
   std::optional<double> ending_since_;
   bool reaped_ = false;
+  std::size_t resident_bytes_ = 0;  // at the last look
   ProcessResult result_;
 };
 

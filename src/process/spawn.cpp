@@ -25,7 +25,7 @@ namespace {
 
 std::vector<std::string> changed_environment(const ProcessOptions& options) {
   std::map<std::string, std::string> variables;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
+  for (char** entry = environ; *entry != nullptr && !options.bare; ++entry) {
     const std::string text = *entry;
     const std::size_t equals = text.find('=');
     if (equals != std::string::npos) variables[text.substr(0, equals)] = text.substr(equals + 1);
@@ -83,6 +83,13 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
+/// Files that other threads' libraries opened without O_CLOEXEC are not for a program that we start.
+void leave_files_behind() {
+#ifdef CLOSE_RANGE_CLOEXEC
+  ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+#endif
+}
+
 /// Between fork and exec: other threads' locks may be held for ever, so only async-signal-safe calls.
 [[noreturn]] void become(const ChildPlan& plan) {
   ::setpgid(0, 0);
@@ -91,6 +98,7 @@ void reset_signals() {
   if (::getppid() != plan.parent) ::_exit(127);  // the parent died before the line above
 #endif
   reset_signals();
+  leave_files_behind();
   const bool ready = ::dup2(plan.input, STDIN_FILENO) >= 0 && ::dup2(plan.output, STDOUT_FILENO) >= 0 &&
                      ::dup2(plan.output, STDERR_FILENO) >= 0 &&
                      (plan.folder == nullptr || ::chdir(plan.folder) == 0);

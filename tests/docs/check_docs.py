@@ -28,6 +28,8 @@ NOT_OURS = {".git", ".roots", "build", "out", "shared"}
 FOREIGN_FLAGS = {
     "--factory-startup", "--python", "--python-exit-code",  # blender
     "--install",  # cmake
+    "--user", "--scope",  # systemd-run
+    "--security-opt", "--privileged",  # docker
     "--info", "--ch", "--chnames",  # oiiotool
     "--gtest_filter",  # GoogleTest
 }

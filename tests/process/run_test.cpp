@@ -6,12 +6,14 @@
 #include "process/stop.h"
 #include "process/tree.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill
 #include <sys/stat.h>
@@ -83,6 +85,39 @@ TEST(RunProcess, ChangesEnvironmentAndFolder) {
   const std::string physical = std::filesystem::canonical(folder.path()).string();
   EXPECT_EQ(run_process(options).output, "new--\n" + physical + "\n");  // and cat found stdin empty
   ::unsetenv("RNMBAKE_TEST_GONE");
+}
+
+TEST(RunProcess, BeginsWithAnEmptyEnvironmentWhereAskedTo) {
+  ASSERT_EQ(::setenv("RNMBAKE_TEST_OURS", "x", 1), 0);
+  ProcessOptions options;
+  options.argv = {"/usr/bin/env"};
+  options.environment = {{"A", "b"}};
+  options.bare = true;
+  const std::string variables = run_process(options).output;
+  EXPECT_EQ(std::count(variables.begin(), variables.end(), '\n'), 2) << variables << "A and our own mark";
+  EXPECT_TRUE(variables.starts_with("A=b\n")) << variables;
+  ::unsetenv("RNMBAKE_TEST_OURS");
+}
+
+TEST(RunProcess, PassesNoFilesOn) {
+  const int leak = ::open("/dev/zero", O_RDONLY);  // without O_CLOEXEC, as libraries open theirs
+  ASSERT_GE(leak, 3);
+  const std::string file = "/proc/self/fd/" + std::to_string(leak);
+  EXPECT_EQ(run_process(sh("test -e " + file + " && echo open || echo closed")).output, "closed\n");
+  ::close(leak);
+}
+
+TEST(RunProcess, EndsWhatUsesTooMuchMemory) {
+  ProcessOptions options =
+      sh("trap '' TERM; exec python3 -c 'b = []\nwhile True: b.append(b\"x\" * (1 << 24))'");
+  options.memory_bytes = std::size_t{300} << 20;
+  const ProcessResult result = run_process(options);
+  EXPECT_EQ(result.ended_by, EndedBy::memory_limit);
+  EXPECT_EQ(result.signal, SIGKILL) << "without a grace period: it would go on";
+  EXPECT_GT(result.peak_bytes, options.memory_bytes);
+  options = sh("sleep 0.3");
+  options.memory_bytes = std::size_t{300} << 20;
+  EXPECT_EQ(run_process(options).ended_by, EndedBy::itself);
 }
 
 TEST(RunProcess, WritesToAFile) {

@@ -99,6 +99,8 @@ SsbumpMeshFlags::SsbumpMeshFlags(CLI::App& command) {
       ->group(group);
   command.add_flag("--allow-scripts", allow_scripts_, "let .blend files run their own scripts and drivers")
       ->group(group);
+  command.add_flag("--sandbox", sandbox_, "run Blender without network, home folder and other files")
+      ->group(group);
   command.add_flag("--keep-temporary", keep_temporary_, "leave what Blender was given and gave")
       ->group(group);
 }
@@ -153,6 +155,7 @@ ResolvedConfig SsbumpMeshFlags::config(const SsbumpRays& rays) const {
   ResolvedConfig config = resolve({}, read_environment(process_environment()), {});
   config.globals.scene.file = from_mesh() ? options_.high : "the height map";
   config.globals.scene.allow_scripts |= allow_scripts_;
+  config.globals.run.sandbox |= sandbox_;
   config.globals.output.keep_temporary |= keep_temporary_;
   if (!blender_.empty()) config.globals.run.blender = blender_;
   if (rays.threads > 0) config.globals.run.threads = rays.threads;

@@ -49,7 +49,7 @@ class SsbumpMeshFlags {
 
   SsbumpMeshOptions options_;
   std::string size_, missing_ = "fill", lights_ = "sky", blender_;
-  bool allow_scripts_ = false, keep_temporary_ = false;
+  bool allow_scripts_ = false, sandbox_ = false, keep_temporary_ = false;
 };
 
 /// "512" or "512x256"; nullopt where it is no size of 1 to 16384 texels a side.

@@ -97,7 +97,7 @@ SavedScene save_scene_with_uvs(BlenderSession& session, const SceneSurvey& surve
   const std::string name = settings.scene.file.stem().string() + ".lightmap-uvs.blend";
   SavedScene saved;
   write_atomically(fs::absolute(settings.output.dir) / name, [&](const fs::path& temporary) {
-    launch.request["save_as"] = temporary.string();
+    launch.save_as = temporary;
     saved = read_answer(session.run(std::move(launch)), survey, objects);
   });
   saved.file = name;

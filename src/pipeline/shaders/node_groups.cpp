@@ -34,7 +34,8 @@ void write_node_groups(BlenderSession& session, const std::vector<std::string>& 
     Launch launch;
     launch.entry = "node_groups_entry.py";
     launch.folder = session.new_folder("node-groups");
-    launch.request = {{"encodings", names}, {"save_as", temporary.string()}};
+    launch.request = {{"encodings", names}};
+    launch.save_as = temporary;
     (void)session.run(std::move(launch));
   });
 }
