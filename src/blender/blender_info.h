@@ -18,6 +18,7 @@ inline constexpr BlenderVersion oldest_blender = {3, 4, 0};
 
 struct BlenderInfo {
   std::filesystem::path executable;
+  bool is_module = false;  // Python's module bpy; the executable is an interpreter that has it
   BlenderVersion version;
   std::vector<std::filesystem::path> folders;  // beside the executable's own, that it consists of
   std::string version_text;                    // as printed: "3.4.1"

@@ -8,9 +8,10 @@
 
 namespace rnmbake {
 
-/// Cheap (`blender --version`, a tenth of a second): executable, version and build; the rest stays empty.
-/// Error(environment) if that is no Blender, one older than oldest_blender, or it does not answer.
-BlenderInfo probe_version(const std::filesystem::path& executable);
+/// Cheap (`blender --version`, a tenth of a second; of Python's module bpy a second): executable, version and
+/// build, of the module its folders; the rest stays empty. Error(environment) if that is no Blender, one
+/// older than oldest_blender, or it does not answer.
+BlenderInfo probe_version(const std::filesystem::path& executable, double limit_seconds = 60);
 
 /// Fills version, version_text and build from the output of --version, which may hold other lines. False: no
 /// Blender printed that.

@@ -102,7 +102,7 @@ Sandbox sandbox_for(const LaunchTrust::Sandboxed& trust, const BlenderInfo& info
   sandbox.write = launch.folder;
   if (launch.save_as) {
     make_folders(staging(launch));
-    sandbox.staged = {fs::absolute(*launch.save_as).parent_path(), staging(launch)};
+    sandbox.staged = {*launch.save_as, staging(launch)};
   }
   return sandbox;
 }
@@ -136,8 +136,9 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder& scripts,
                                      const LaunchTrust& trust, const Launch& launch) {
-  std::vector<std::string> argv = {info.executable.string(), "-b", "--factory-startup", "-noaudio",
-                                   trust.allow_scripts ? "-y" : "-Y"};
+  std::vector<std::string> argv = {info.executable.string()};
+  if (info.is_module) argv.push_back(scripts.entry("bpy_runner.py").string());
+  argv.insert(argv.end(), {"-b", "--factory-startup", "-noaudio", trust.allow_scripts ? "-y" : "-Y"});
   if (info.version >= first_with_offline_mode) argv.emplace_back("--offline-mode");
   for (std::string& word : let_cycles_speak(info.version)) argv.push_back(std::move(word));
   if (launch.threads > 0) argv.insert(argv.end(), {"-t", std::to_string(launch.threads)});
@@ -166,6 +167,8 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
     const auto ours = sandbox_environment(trust.sandbox->gpu);
     options.environment.insert(options.environment.end(), ours.begin(), ours.end());
   }
+  if (info.is_module)
+    options.environment.emplace_back("GLOG_v", "3");  // as --verbose, which it does not have
   options.output = launch.folder / "stdout.log";
   options.total_seconds = limits.total_seconds;
   options.stall_seconds = limits.stall_seconds;

@@ -91,11 +91,9 @@ nlohmann::json as_json(const Findings& findings) {
   json["openimageio"] = RNMBAKE_OPENIMAGEIO_VERSION;
   json["blender"] = nullptr;
   if (const auto& blender = findings.blender) {
-    json["blender"] = {{"path", blender->executable.string()},
-                       {"version", blender->version_text},
-                       {"build", blender->build},
-                       {"devices", blender->devices},
-                       {"numpy", blender->has_numpy},
+    json["blender"] = {{"path", blender->executable.string()}, {"module", blender->is_module},
+                       {"version", blender->version_text},     {"build", blender->build},
+                       {"devices", blender->devices},          {"numpy", blender->has_numpy},
                        {"denoiser", blender->has_denoiser}};
   }
   json["sandbox"] = {{"usable", !findings.no_sandbox}, {"why_not", findings.no_sandbox.value_or("")}};
@@ -121,7 +119,9 @@ void write_table(const Findings& findings, std::ostream& out) {
   };
   line("rnmbake", version);
   if (const auto& blender = findings.blender) {
-    line("Blender", fmt::format("{} ({})", blender->version_text, blender->executable.string()));
+    line("Blender",
+         fmt::format("{} ({}{})", blender->version_text, blender->is_module ? "Python's module bpy of " : "",
+                     blender->executable.string()));
     if (!blender->build.empty()) line("  build", blender->build);
     line("  devices", fmt::format("{}", fmt::join(blender->devices, ", ")));
     line("  numpy", blender->has_numpy ? "yes" : "no");

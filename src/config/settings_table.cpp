@@ -196,6 +196,15 @@ std::vector<Setting> make_settings_table() {
           .range(0, 31'536'000)
           .unit("seconds")
           .empty_means("no limit"),
+      run("memory_max", &Run::memory_max, "end a Blender that uses more memory")
+          .range(0, 16'777'216)
+          .unit("MiB")
+          .empty_means("no limit"),
+      run("sandbox", &Run::sandbox,
+          "run Blender without network, home folder and other files (bubblewrap), for scenes of strangers"),
+      run("sandbox_read", &Run::sandbox_read,
+          "folders beside the scene's that a sandboxed Blender may read: libraries, pictures")
+          .empty_means("the scene's alone"),
       run("time", &Run::time, "bake the best that fits: 90s, 10m, 2h; samples are then the most")
           .empty_means("as long as it takes")
           .only({Purpose::bake}),

@@ -1,4 +1,5 @@
-# matrix.sh - the Blender tests on other Debian releases, each in a root of its own under .roots/.
+# matrix.sh - the Blender tests on other Debian releases, each in a root of its own under .roots/, and on blender.org's
+# Blenders as PyPI has them, each in a virtual environment there.
 # Sourced by ./dev. What cannot be fetched is reported as SKIPPED with its reason, never as passed.
 
 enter() {
@@ -99,22 +100,81 @@ try_suite() {
   echo "PASSED  $suite: $version"
 }
 
+# "4.5 python3.11" for each series of the module bpy of which PyPI has a wheel for a Python of this machine.
+bpy_series() {
+  local python
+  for python in python3.{11..16}; do
+    "$python" --version >/dev/null 2>&1 || continue
+    "$python" -m pip --version >/dev/null 2>&1 || continue
+    "$python" -m pip index versions bpy 2>/dev/null | sed -n 's/^Available versions: //p' | tr -d ' ' | tr , '\n' |
+      cut -d. -f1,2 | uniq | sed "s/$/ $python/"
+  done
+}
+
+# Makes .roots/bpy-SERIES once, with the newest module of the series, and a program that tests can start in place of
+# `blender`.
+make_bpy() {
+  local series=$1 python=$2 root=.roots/bpy-$1 wrapper=.roots/bin/blender-bpy-$1
+  if [[ ! -e $root/.complete ]]; then
+    rm -rf --one-file-system "$root"
+    "$python" -m venv "$root" &&
+      "$root/bin/python3" -m pip install --quiet --disable-pip-version-check --only-binary :all: "bpy==$series.*" || return
+    touch "$root/.complete"
+  fi
+  mkdir -p .roots/bin
+  printf '#!/bin/sh\nexec "%s" "%s" "$@"\n' "$PWD/$root/bin/python3" "$PWD/blender_scripts/bpy_runner.py" >"$wrapper"
+  chmod +x "$wrapper"
+}
+
+# One series from nothing to its verdict; prints the summary line last. Launches as --blender PYTHON makes them, then
+# all tests with a program in between that takes Blender's own command line.
+try_bpy() {
+  local series=$1 python reason='' version
+  python=$(bpy_series | sed -n "s/^${series//./\\.} //p" | tail -n 1)
+  if [[ -z $python ]]; then
+    reason="PyPI has no wheel of bpy $series for a Python of this machine (with pip and venv)"
+  elif ! make_bpy "$series" "$python" >"$(log "bpy-$series")" 2>&1; then
+    reason="it could not be installed, see $(log "bpy-$series"): $(tail -n 1 "$(log "bpy-$series")")"
+  elif ! version=$(.roots/bin/blender-bpy-"$series" --version 2>&1); then
+    reason="it cannot be imported: $(tail -n 1 <<<"$version")"
+  fi
+  if [[ -n $reason ]]; then
+    echo "SKIPPED bpy-$series: $reason"
+    return
+  fi
+  version=${version%%$'\n'*}
+  if ! RNMBAKE_BLENDER=$PWD/.roots/bpy-$series/bin/python3 \
+    ctest --test-dir build/release -R '^blender\.' --output-on-failure --no-tests=error >&2 ||
+    ! RNMBAKE_BLENDER=$PWD/.roots/bin/blender-bpy-$series \
+      ctest --test-dir build/release -L blender --output-on-failure --no-tests=error >&2; then
+    echo "FAILED  bpy-$series: $version, module of $python"
+    return 1
+  fi
+  echo "PASSED  bpy-$series: $version, module of $python"
+}
+
 matrix() {
   local with_build=no suites=() summary=() status=0 suite argument
   for argument in "$@"; do
     case $argument in
       --build) with_build=yes ;;
-      trixie | sid) suites+=("$argument") ;;
-      *) die "./dev matrix knows trixie, sid and --build, not $argument" ;;
+      trixie | sid | bpy-[0-9].[0-9]*) suites+=("$argument") ;;
+      bpy) mapfile -t -O "${#suites[@]}" suites < <(bpy_series | sed 's/^/bpy-/; s/ .*//' | sort -uV) ;;
+      *) die "./dev matrix knows trixie, sid, bpy, bpy-4.5 and the like, and --build, not $argument" ;;
     esac
   done
-  if [[ ${#suites[@]} == 0 ]]; then suites=(trixie sid); fi
+  if [[ ${#suites[@]} == 0 ]]; then
+    mapfile -t suites < <(printf '%s\n' trixie sid && bpy_series | sed 's/^/bpy-/; s/ .*//' | sort -uV)
+  fi
 
   require "${test_packages[@]}"
   build release
   scenes
   for suite in "${suites[@]}"; do
-    summary+=("$(try_suite "$suite")") || status=1
+    case $suite in
+      bpy-*) summary+=("$(try_bpy "${suite#bpy-}")") || status=1 ;;
+      *) summary+=("$(try_suite "$suite")") || status=1 ;;
+    esac
   done
   printf '%s\n' "" "${summary[@]}"
   return $status

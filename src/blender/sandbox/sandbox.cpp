@@ -63,6 +63,7 @@ void add_system(Mounts& mounts, bool gpu) {
   for (const char* file : cpu_files) mounts[file] = {"--ro-bind-try", file, file};
   mounts["/proc"] = {"--proc", "/proc"};
   mounts["/dev"] = {"--dev", "/dev"};
+  mounts["/etc/mtab"] = {"--symlink", "/proc/self/mounts", "/etc/mtab"};  // Blender warns without it
   if (!gpu) return;
   for (const char* file : gpu_files) mounts[file] = {"--ro-bind-try", file, file};
   mounts["/dev/dri"] = {"--dev-bind-try", "/dev/dri", "/dev/dri"};
@@ -76,14 +77,16 @@ void add_system(Mounts& mounts, bool gpu) {
 
 /// A folder for what is written, in the place of one whose files stay to be seen where they could be before.
 void add_staged(Mounts& mounts, const Sandbox::Staged& staged) {
-  const fs::path place = fs::absolute(staged.folder).lexically_normal();
+  const fs::path place = fs::absolute(staged.file).lexically_normal().parent_path();
   const bool was_shown = mounts.contains(place);
   mounts[place] = {"--bind", fs::absolute(staged.instead).string(), place.string()};
   if (!was_shown) return;
   std::error_code error;
-  for (fs::directory_iterator it(place, error), end; !error && it != end; it.increment(error))
-    mounts.try_emplace(it->path(),
-                       std::vector{std::string("--ro-bind"), it->path().string(), it->path().string()});
+  for (fs::directory_iterator it(place, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().filename() == staged.file.filename()) continue;
+    const std::string path = it->path().string();
+    mounts.try_emplace(it->path(), std::vector<std::string>{"--ro-bind", path, path});
+  }
 }
 
 std::string last_line(std::string text) {

@@ -15,10 +15,10 @@ namespace rnmbake {
 struct Sandbox {
   std::vector<std::filesystem::path> read;  // files and folders; what does not exist is passed over
   std::filesystem::path write;              // the one folder that can be written to
-  /// Folder whose files are not to be touched although the program writes a new one there: it writes into
-  /// `instead`, a folder below `write`.
+  /// A new file in a folder whose other files are not to be touched: it is written into `instead`, a folder
+  /// below `write`.
   struct Staged {
-    std::filesystem::path folder, instead;
+    std::filesystem::path file, instead;
   };
   std::optional<Staged> staged = {};
   bool gpu = false;  // devices and what their drivers ask /sys

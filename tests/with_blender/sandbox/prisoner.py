@@ -1,12 +1,14 @@
 """A text that runs when its .blend is opened, and tries what the scene of a stranger may try. Its findings lie in the
-launch's folder. CASE and PLACES, a dict of names and paths, stand above it: sandbox_scene.py writes them there."""
-# ruff: noqa: F821
+launch's folder. A text beside it, by sandbox_scene.py, says which case this is, and where things are."""
 import json
 import os
 import socket
 import subprocess
 import sys
 
+import bpy
+
+CASE, PLACES = json.loads(bpy.data.texts["case"].as_string())
 FOLDER = os.path.dirname(sys.argv[-1])
 
 
@@ -23,7 +25,7 @@ def write(path):
 
 
 def read(path):
-    with open(path) as stream:
+    with open(path, errors="replace") as stream:
         return stream.read()
 
 

@@ -15,8 +15,8 @@ import time
 import unittest
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from harness import (ENVIRONMENT, INVALID_INPUT, OK, TASKS_FAILED, USAGE, LIMIT_SECONDS, binary, environment,  # noqa: E402
-                     run_blender)
+from harness import (ENVIRONMENT, INVALID_INPUT, OK, TASKS_FAILED, USAGE, LIMIT_SECONDS, binary, blender,  # noqa: E402
+                     environment, run_blender)
 
 HERE = Path(__file__).resolve().parent
 QUICK = ("--resolution", "16", "--samples", "4", "--uv", "UVMap")
@@ -35,6 +35,8 @@ class Sandboxed(unittest.TestCase):
         sandbox = doctor()
         if not sandbox["usable"]:
             raise unittest.SkipTest(f"SKIPPED: no sandbox on this machine: {sandbox['why_not']}")
+        if Path(blender()).read_bytes().startswith(b"#!"):
+            raise unittest.SkipTest(f"SKIPPED: {blender()} is a script that starts a Blender elsewhere, which the sandbox hides")
         folder = tempfile.TemporaryDirectory(prefix="rnmbake-sandbox-")
         cls.addClassCleanup(folder.cleanup)
         cls.top = Path(folder.name)

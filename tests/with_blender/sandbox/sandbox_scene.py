@@ -27,7 +27,7 @@ material.node_tree.links.new(node.outputs["Color"], material.node_tree.nodes["Pr
 bpy.context.object.data.materials.append(material)
 if case:
     text = bpy.data.texts.new("prisoner.py")
-    text.write(f"CASE, PLACES = {case!r}, {json.loads(places)!r}\n")
+    bpy.data.texts.new("case").write(json.dumps([case, json.loads(places)]))
     text.write(Path(__file__).with_name("prisoner.py").read_text())
     text.use_module = True
 bpy.ops.wm.save_as_mainfile(filepath=path, relative_remap=True)
