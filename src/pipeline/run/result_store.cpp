@@ -26,7 +26,11 @@ fs::path cache_folder(const fs::path& cache) {
 }
 
 Store open_store(const BakeSettings& settings) {
-  return Store(cache_folder(settings.run.cache), std::int64_t{settings.run.cache_limit} << 20);
+  // A script of the scene's own can say that it is another scene, and so leave its light in that one's place.
+  const bool is_shared = settings.run.cache.empty();
+  const bool keeps_none = settings.run.sandbox && is_shared;
+  return Store(keeps_none ? fs::path() : cache_folder(settings.run.cache),
+               std::int64_t{settings.run.cache_limit} << 20);
 }
 
 }  // namespace rnmbake

@@ -12,7 +12,8 @@ namespace rnmbake {
 /// has neither $XDG_CACHE_HOME nor $HOME.
 [[nodiscard]] std::filesystem::path cache_folder(const std::filesystem::path& cache);
 
-/// Nothing is made or read before it is used.
+/// Of a sandboxed run only where the folder was named: scenes of strangers do not come into the user's own
+/// cache. Nothing is made or read before it is used.
 [[nodiscard]] Store open_store(const BakeSettings& settings);
 
 }  // namespace rnmbake

@@ -19,7 +19,7 @@ from harness import (ENVIRONMENT, INVALID_INPUT, OK, TASKS_FAILED, USAGE, LIMIT_
                      environment, run_blender)
 
 HERE = Path(__file__).resolve().parent
-QUICK = ("--resolution", "16", "--samples", "4", "--uv", "UVMap")
+QUICK = ("--resolution", "16", "--samples", "4", "--uv", "UVMap", "--cache", "none")  # what is kept was baked in no sandbox
 HARMLESS = {"read scene", "write launch"}
 
 
@@ -116,6 +116,18 @@ class Escapes(Sandboxed):
 
 
 class Results(Sandboxed):
+    def test_do_not_come_into_the_cache(self):
+        """A scene that runs scripts can say that it is another one."""
+        cache = self.top / "home" / ".cache" / "rnmbake"
+        env = {"XDG_CACHE_HOME": str(cache.parent), "RNMBAKE_CACHE": ""}
+        command = [binary(), "bake", str(self.make("")), "--resolution", "16", "--samples", "4", "-o"]
+        env = environment(HOME=str(self.top / "home"), TMPDIR=str(self.top / "tmp"), **env)
+        for flags, kept in (([str(self.top / "strange"), "--sandbox"], False), ([str(self.top / "own")], True)):
+            done = subprocess.run([*command, *flags], env=env, stdin=subprocess.DEVNULL, capture_output=True,
+                                  encoding="utf-8", timeout=LIMIT_SECONDS)
+            self.assertEqual(done.returncode, OK, done.stderr)
+            self.assertEqual(cache.exists() and any(cache.rglob("*")), kept)
+
     def test_are_the_same_to_the_byte(self):
         scene = self.make("")
         for out, flags in (("plain", ()), ("sandboxed", ("--sandbox",))):
