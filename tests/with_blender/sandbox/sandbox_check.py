@@ -119,9 +119,9 @@ class Results(Sandboxed):
     def test_do_not_come_into_the_cache(self):
         """A scene that runs scripts can say that it is another one."""
         cache = self.top / "home" / ".cache" / "rnmbake"
-        env = {"XDG_CACHE_HOME": str(cache.parent), "RNMBAKE_CACHE": ""}
         command = [binary(), "bake", str(self.make("")), "--resolution", "16", "--samples", "4", "-o"]
-        env = environment(HOME=str(self.top / "home"), TMPDIR=str(self.top / "tmp"), **env)
+        env = environment(HOME=str(self.top / "home"), TMPDIR=str(self.top / "tmp"), XDG_CACHE_HOME=str(cache.parent))
+        del env["RNMBAKE_CACHE"]
         for flags, kept in (([str(self.top / "strange"), "--sandbox"], False), ([str(self.top / "own")], True)):
             done = subprocess.run([*command, *flags], env=env, stdin=subprocess.DEVNULL, capture_output=True,
                                   encoding="utf-8", timeout=LIMIT_SECONDS)
