@@ -100,7 +100,9 @@ fs::path Workbench::exported(const fs::path& blend) {
 }
 
 SceneSurvey Workbench::survey(const fs::path& blend) {
-  RealBlender blender(blender_, RealBlender::Options{{}, fs::path(RNMBAKE_SOURCE_DIR "/blender_scripts")});
+  RealBlender::Options options;
+  options.scripts = fs::path(RNMBAKE_SOURCE_DIR "/blender_scripts");
+  RealBlender blender(blender_, options);
   Launch launch;
   launch.entry = "survey_entry.py";
   launch.scene = BlendPath(blend);
