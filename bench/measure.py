@@ -87,14 +87,15 @@ def run(argv, environment=None):
 
 
 def bake(scene, *flags, environment=None, rnmbake=RNMBAKE):
-    """rnmbake bake into a folder that is thrown away; adds the manifest's timings."""
+    """rnmbake bake into a folder that is thrown away; adds its timings."""
     WORK.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=WORK) as folder:
         cost = run([rnmbake, "bake", scene, "-o", folder, "--save-scene", "never", *flags], environment)
-        manifest = json.loads((Path(folder) / "manifest.json").read_text(encoding="utf-8"))
+        manifest, timings = (json.loads((Path(folder) / f"{name}.json").read_text(encoding="utf-8"))
+                             for name in ("manifest", "timings"))
     del cost["output"]
     sizes = [o["triangles"] for o in manifest["objects"]]
-    return {**cost, **manifest["timings"], "objects": len(sizes), "triangles": sum(sizes)}
+    return {**cost, **timings, "objects": len(sizes), "triangles": sum(sizes)}
 
 
 def blender(script, *arguments, scene=None):

@@ -58,7 +58,7 @@ def race(scene, exchange, folder, samples=(128, 64)):
         times[who] = 0
         for half, out in enumerate(names[who], 1):
             run([*command, "-o", out, *common, "--samples", count, "--seed", half])
-            timings = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["timings"]
+            timings = json.loads((out / "timings.json").read_text(encoding="utf-8"))
             times[who] += timings["bake_seconds" if who == "cycles" else "wall_seconds"]
     said = run([RNMBAKE, "compare", names["cycles"][0], names["ours"][0], "--second-a", names["cycles"][1],
                 "--second-b", names["ours"][1], "--json"])

@@ -82,6 +82,11 @@ foreach(CLASS Changes Killed)
   set_tests_properties(reuse.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
 endforeach()
 
+add_test(NAME outputs.check
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/outputs_check.py -v)
+set_tests_properties(outputs.check PROPERTIES LABELS blender TIMEOUT 1200)
+
 add_test(NAME saved_scene.check
   COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)
@@ -117,3 +122,17 @@ add_test(NAME sandbox.check
   COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/sandbox/sandbox_check.py -v)
 set_tests_properties(sandbox.check PROPERTIES LABELS blender TIMEOUT 1200 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+
+# Completion and manual pages, by real shells, man and mandoc.
+foreach(CHECK completion man)
+  add_test(NAME shell.${CHECK}
+    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/shell/${CHECK}_check.py -v)
+  set_tests_properties(shell.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
+endforeach()
+
+# Lightmaps in builds of CMake, Ninja and make.
+add_test(NAME builds.check
+  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake> RNMBAKE_BUILD=${CMAKE_BINARY_DIR}
+          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/builds/builds_check.py -v)
+set_tests_properties(builds.check PROPERTIES LABELS blender TIMEOUT 1200)

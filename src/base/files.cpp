@@ -8,7 +8,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <random>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -48,6 +51,24 @@ int create_beside(const fs::path& target, fs::path& temporary) {
     if (errno != EEXIST) break;
   }
   fail_writing(target, errno);
+}
+
+/// Whether both are plain files with the same bytes.
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(b, error)) ||
+      fs::file_size(a, error) != fs::file_size(b, error))
+    return false;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  std::vector<char> of_first(1 << 16), of_second(1 << 16);
+  while (first && second) {
+    first.read(of_first.data(), std::ssize(of_first));
+    second.read(of_second.data(), std::ssize(of_second));
+    const auto count = static_cast<std::size_t>(first.gcount());
+    if (first.gcount() != second.gcount() || std::memcmp(of_first.data(), of_second.data(), count) != 0)
+      return false;
+  }
+  return first.eof() && second.eof();
 }
 
 }  // namespace
@@ -90,6 +111,8 @@ void AtomicFile::write_at(std::string_view bytes, std::int64_t offset) {
 }
 
 void AtomicFile::commit() {
+  // Builds (make, Ninja) do nothing over again that depends on a file whose time stays.
+  if (same_bytes(temporary_, target_)) return;  // the destructor removes the temporary
   // A library may have put another file in our file's place, so sync what the name stands for now.
   ::close(descriptor_);
   descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);

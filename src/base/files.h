@@ -27,7 +27,7 @@ class AtomicFile {
   /// At a place of the file, which may lie beyond its end.
   void write_at(std::string_view bytes, std::int64_t offset);
 
-  /// fsync, then rename over the target.
+  /// fsync, then rename over the target; one that holds the same bytes is left alone, so that its time stays.
   void commit();
 
  private:

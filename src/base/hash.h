@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -15,5 +16,8 @@ std::string short_hash(std::string_view bytes, int digits = 8);
 
 /// XXH3, 128 bit, as 32 hexadecimal digits.
 std::string hash128_hex(std::string_view bytes);
+
+/// The same over a file, whatever its size. Throws Error(io).
+std::string file_hash128_hex(const std::filesystem::path& file);
 
 }  // namespace rnmbake

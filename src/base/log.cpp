@@ -1,7 +1,9 @@
 #include "base/log.h"
 
+#include "base/events/log_event.h"
 #include "base/text.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -91,6 +93,13 @@ std::string json_escaped(std::string_view text) {
   return valid_utf8(out);
 }
 
+std::string json_of(const FieldValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return fmt::format("\"{}\"", json_escaped(*text));
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  const double number = std::get<double>(value);
+  return std::isfinite(number) ? fmt::format("{}", number) : "null";
+}
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -124,21 +133,33 @@ bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) == 1;
 }
 
-std::string format_line(Format format, Level level, std::string_view message, bool colour) {
+std::string format_event(Format format, Level level, std::string_view kind, std::string_view message,
+                         Fields fields, bool colour) {
   const LevelLook& its = look(level);
   if (format == Format::jsonl) {
-    return fmt::format(R"({{"time":"{}","level":"{}","message":"{}"}})", utc_now(), its.name,
-                       json_escaped(message));
+    std::string line = fmt::format(R"({{"time":"{}","level":"{}","event":"{}","message":"{}")", utc_now(),
+                                   its.name, kind, json_escaped(message));
+    for (const auto& [name, value] : fields) line += fmt::format(R"(,"{}":{})", name, json_of(value));
+    return line + "}";
   }
   const bool painted = colour && *its.colour != '\0';
   return fmt::format("{}rnmbake: {}{}{}", painted ? its.colour : "", its.prefix, painted ? "\033[0m" : "",
                      printable(message, level <= Level::debug));  // tracebacks have lines
 }
 
-void write(Level level, std::string_view message) {
+std::string format_line(Format format, Level level, std::string_view message, bool colour) {
+  return format_event(format, level, "message", message, {}, colour);
+}
+
+void event(Level level, std::string_view kind, std::string_view message, Fields fields) {
   State& s = state();
   if (!s.logger.should_log(look(level).level)) return;
-  s.logger.log(look(level).level, spdlog::string_view_t(format_line(s.format, level, message, s.colour)));
+  const std::string line = format_event(s.format, level, kind, message, fields, s.colour);
+  s.logger.log(look(level).level, spdlog::string_view_t(line));
+}
+
+void write(Level level, std::string_view message) {
+  event(level, "message", message, {});
 }
 
 void draw_bar(std::string_view text) {

@@ -1,5 +1,6 @@
 #include "base/progress.h"
 
+#include "base/events/log_event.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "base/utf8.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace rnmbake {
 
@@ -14,6 +16,9 @@ namespace {
 
 // From less than that the rate says little.
 constexpr double least_seconds = 2, least_share = 0.02;
+
+// Between two events for a program, which draws its own bar from them.
+constexpr double jsonl_seconds = 1;
 
 }  // namespace
 
@@ -24,6 +29,7 @@ ProgressOptions progress_for(bool quiet, bool jsonl) {
   } else if (log::stderr_is_terminal() && !jsonl) {
     options.style = ProgressOptions::Style::bar;
   }
+  if (jsonl) options.line_seconds = jsonl_seconds;
   return options;
 }
 
@@ -116,7 +122,12 @@ void Progress::show_line(std::string_view item) {
   if (options_.sink) {
     options_.sink(text);
   } else {
-    log::info("{}", text);
+    const double unknown = std::numeric_limits<double>::quiet_NaN(), eta = eta_seconds();
+    log::event(log::Level::info, "progress", text,
+               {{"title", title_},
+                {"share", known_ ? share_ : unknown},
+                {"seconds_left", eta < 0 ? unknown : eta},
+                {"item", std::string(item)}});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "cli/app.h"
 
 #include "base/error.h"
+#include "base/events/log_event.h"
 #include "base/log.h"
 #include "base/names.h"
 #include "base/version.h"
@@ -8,6 +9,7 @@
 #include "cli/bake.h"
 #include "cli/cache.h"
 #include "cli/compare.h"
+#include "cli/completion.h"
 #include "cli/convert.h"
 #include "cli/decode.h"
 #include "cli/doctor.h"
@@ -178,6 +180,8 @@ const std::vector<Command>& commands() {
       {"nms", add_nms_command, about_nms},
       {"shaders", add_shaders_command, about_shaders},
       {"cache", add_cache_command, about_cache},
+      {"completion", add_completion_command},
+      {"man", add_man_command},
   };
   return all;
 }
@@ -193,7 +197,7 @@ struct GlobalFlags {
     app.add_option("--log-format", log_format,
                    "diagnostics on stderr as text, or as one JSON object a line (jsonl)")
         ->check(CLI::IsMember({"text", "jsonl"}).description(""))
-        ->type_name("FORMAT");
+        ->type_name("text|jsonl");
   }
   void apply() const {
     const int verbosity = quiet ? -1 : static_cast<int>(verbose->count());
@@ -297,21 +301,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+int end(const std::string& error, int code) {
+  log::event(log::Level::error, "end", error, {{"exit_code", std::int64_t(code)}});
+  return code;
+}
+
 }  // namespace
 
 int run(int argc, const char* const* argv) noexcept {
   try {
     return parse_and_run(argc, argv);
   } catch (const Interrupted& stop) {
-    log::error("stopped; what was finished before is kept");
-    return 128 + stop.signal;
+    return end("stopped; what was finished before is kept", 128 + stop.signal);
   } catch (const Error& error) {
-    log::error("{}", one_line(error.what()));
-    return static_cast<int>(error.code());
+    return end(one_line(error.what()), static_cast<int>(error.code()));
   } catch (const std::exception& error) {
-    log::error("{}", one_line(error.what()));
+    return end(one_line(error.what()), static_cast<int>(ExitCode::io));
   }
-  return static_cast<int>(ExitCode::io);
 }
 
 }  // namespace rnmbake

@@ -8,6 +8,7 @@
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/reference.h"
+#include "cli/run_report.h"
 #include "cli/settings_flags.h"
 #include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
@@ -75,7 +76,8 @@ bool is_traced(const BakeSettings& settings) {
 }
 
 /// With engine embree.
-int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const LastRun& last) {
+int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const LastRun& last,
+                   RunReport& made) {
   BetweenTraceSteps between;
   between.surveyed = [&](const SceneSurvey& survey) {
     say_why(last.scene_changes(survey.digest), flags.why);
@@ -89,10 +91,10 @@ int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const L
       return show_plan(all);
     };
   }
-  return trace_bake(config, between);
+  return trace_bake(config, between, made);
 }
 
-int bake(const ResolvedConfig& config, const BakeFlags& flags) {
+int bake(const ResolvedConfig& config, const BakeFlags& flags, RunReport& made) {
   const double started = steady_clock().now();
   const bool traced = is_traced(config.globals);
   if (traced) (void)plan_traced_bake(config, "5.0");  // throws for what only Cycles does
@@ -101,10 +103,13 @@ int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   const LastRun last(config, "bake", !traced || !is_rnmscene(config.globals.scene.file));
   if (last.reasons().empty() && !flags.force) {
     log::info("nothing to do: {} is up to date", output.dir.string());
+    made = made_from(config);
+    add_scene_inputs(last.inputs(), made);
+    add_lightmaps(made);
     return static_cast<int>(ExitCode::ok);
   }
   say_why(last.reasons(), flags.why);
-  if (traced) return bake_by_embree(config, flags, last);
+  if (traced) return bake_by_embree(config, flags, last, made);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
@@ -123,17 +128,26 @@ int bake(const ResolvedConfig& config, const BakeFlags& flags) {
   if (flags.dry_run) return show_plan(preview_bake(session, subject));
   const int code = report(run_bake(session, subject), output);
   if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey);
+  made = made_from(config);
+  add_scene_inputs(scene.survey.inputs, made);
+  add_lightmaps(made);
   return code;
 }
 
 /// One scene after the other, each with all cores. The exit code is the first that is not 0.
-int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags) {
+int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags, RunReport& made) {
   int code = 0;
   std::vector<std::filesystem::path> records;
   for (const ResolvedConfig& config : configs) {
     if (configs.size() > 1) log::info("{}", config.globals.scene.file.string());
-    const int one = bake(config, flags);
+    RunReport of_scene;
+    const int one = bake(config, flags, of_scene);
     code = code == 0 ? one : code;
+    if (configs.size() == 1) {
+      made = std::move(of_scene);
+    } else {
+      add_scene(of_scene, made);
+    }
     records.push_back(LastRun::record_in(config.globals.output.dir));
   }
   if (code == 0 && !flags.dry_run) remember_run(records);
@@ -150,11 +164,18 @@ std::function<int()> add_bake_command(CLI::App& app) {
   command->add_flag("--why", more->why, "list all that made the bake necessary");
   command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");
   command->add_flag("--force", more->force, "look for changes in the scene even where no file changed");
-  return [flags, more] {
-    const std::vector<ResolvedConfig> configs = flags->resolve_all();
-    if (configs.empty()) return static_cast<int>(ExitCode::ok);
-    StopRequest::install();
-    return bake_all(configs, *more);
+  auto run = std::make_shared<RunFlags>(*command);
+  return [flags, more, run] {
+    return run->run([&](RunReport& made) {
+      const std::vector<ResolvedConfig> configs = flags->resolve_all();
+      if (configs.empty()) return static_cast<int>(ExitCode::ok);
+      if (configs.size() > 1 && run->wants_depfile())
+        fail(ExitCode::usage,
+             "--depfile names the inputs of one scene, and here are {}; bake each by a call of its own",
+             configs.size());
+      StopRequest::install();
+      return bake_all(configs, *more, made);
+    });
   };
 }
 

@@ -28,15 +28,14 @@ bool was_typed(const SettingOverride& given) {
          given.where.find(given.setting->flag().substr(2)) != std::string::npos;
 }
 
-/// "hall.toml:12" -> "hall.toml".
+}  // namespace
+
 std::string project_of(const ResolvedConfig& config) {
   for (const SettingOverride& given : config.values()) {
     if (given.source == SettingSource::project) return given.where.substr(0, given.where.rfind(':'));
   }
   return "";
 }
-
-}  // namespace
 
 std::string shell_word(const std::string& word) {
   const bool harmless = !word.empty() && word.find_first_not_of(

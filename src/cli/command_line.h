@@ -10,6 +10,9 @@ namespace rnmbake {
 /// Quotes a word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
+/// The project file that settings came from; "": none.
+[[nodiscard]] std::string project_of(const ResolvedConfig& config);
+
 /// "rnmbake validate hall.blend --samples 64 ...": the scene or project, and each flag and variable that was
 /// given.
 [[nodiscard]] std::string command_line(const std::string& command, const ResolvedConfig& config);

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
+#include "cli/run_report.h"
 #include "cli/settings_flags.h"
 #include "pipeline/probes/picture_probe.h"
 #include "pipeline/probes/probes_run.h"
@@ -22,6 +23,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -49,9 +51,11 @@ std::string format_names() {
 }
 
 struct ProbesFlags {
-  explicit ProbesFlags(CLI::App& command) : settings(command, Purpose::reference, probes_settings) {}
+  explicit ProbesFlags(CLI::App& command)
+      : settings(command, Purpose::reference, probes_settings), run(command) {}
 
   SettingsFlags settings;
+  RunFlags run;
   double spacing = 0;  // 0: not said
   double error = 0;    // percent; 0: not said
   std::string bounds = "auto", lights = "all", by = "reference";
@@ -98,20 +102,32 @@ void say_what_came_out(const ProbesResult& result, const std::filesystem::path& 
   log::info("{}", (folder / "probes.json").string());
 }
 
+/// Files, and how many probes each volume has.
+void note_volumes(const std::vector<ProbeVolume>& volumes, const std::filesystem::path& folder,
+                  std::vector<std::string> files, RunReport& made) {
+  made.output = folder;
+  made.main_file = folder / "probes.json";
+  made.files = std::move(files);
+  made.more["volumes"] = nlohmann::ordered_json::array();
+  for (const ProbeVolume& volume : volumes)
+    made.more["volumes"].push_back({{"name", volume.name}, {"probes", volume.probes.size()}});
+}
+
 /// One probe out of pictures.
-int probe_from_pictures(const ProbesFlags& flags) {
+int probe_from_pictures(const ProbesFlags& flags, RunReport& made) {
   if (flags.output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
   const DistantLight light = read_light(flags.from);
   ProbeVolume volume = empty_volume("probe", std::vector{Vec3d(0)});
   volume.probes.front() = probe_of(light);
   const FolderLock lock = hold_folder(flags.output);
-  write_volumes(flags.output, {volume}, {{"source", "pictures"}});
-  std::cout << picture_text(cubes_of(light), study_probe_sphere(light));
+  note_volumes({volume}, flags.output, write_volumes(flags.output, {volume}, {{"source", "pictures"}}), made);
+  made.inputs = flags.from;
+  if (!flags.run.json()) std::cout << picture_text(cubes_of(light), study_probe_sphere(light));
   log::info("{}", (flags.output / "probes.json").string());
   return static_cast<int>(ExitCode::ok);
 }
 
-int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
+int make_probes(const ResolvedConfig& config, const ProbesFlags& flags, RunReport& made) {
   ProbesOptions options = flags.checked();
   LateBlender blender(config.globals);
   if (!is_rnmscene(config.globals.scene.file))
@@ -129,14 +145,21 @@ int make_probes(const ResolvedConfig& config, const ProbesFlags& flags) {
   take_out(options.dynamic, exported.diffuse_scene);
   const TraceScene scene(exported.diffuse_scene, plan.blender_version);
   const ProbesResult result = run_probes(session, exported, scene, plan, options);
-  write_volumes(flags.output, result.volumes, result.about);
+  const std::vector<std::string> files = write_volumes(flags.output, result.volumes, result.about);
+  made = made_from(config);
+  add_scene_inputs(exported.diffuse_scene.survey.inputs, made);
+  if (!options.places.points.empty()) made.inputs.push_back(options.places.points);
+  note_volumes(result.volumes, flags.output, files, made);
   for (const std::string& name : flags.to) {
     for (const auto& file : write_probe_format(name, result.regular.empty() ? result.volumes : result.regular,
-                                               flags.output / name))
+                                               flags.output / name)) {
       log::info("{}: {}", name, file.string());
+      made.files.push_back(file.lexically_relative(flags.output).string());
+    }
   }
   say_what_came_out(result, flags.output);
-  std::cout << check_text(result.check);
+  made.more["check"] = check_json(result.check);
+  if (!flags.run.json()) std::cout << check_text(result.check);
   return static_cast<int>(ExitCode::ok);
 }
 
@@ -222,11 +245,13 @@ std::function<int()> add_probes_command(CLI::App& app) {
       ->delimiter(',')
       ->type_name("FILE,...");
   return [flags] {
-    if (!flags->from.empty()) return probe_from_pictures(*flags);
-    const auto config = flags->settings.resolve();
-    if (!config) return static_cast<int>(ExitCode::ok);
-    StopRequest::install();
-    return make_probes(*config, *flags);
+    return flags->run.run([&](RunReport& made) {
+      if (!flags->from.empty()) return probe_from_pictures(*flags, made);
+      const auto config = flags->settings.resolve();
+      if (!config) return static_cast<int>(ExitCode::ok);
+      StopRequest::install();
+      return make_probes(*config, *flags, made);
+    });
   };
 }
 

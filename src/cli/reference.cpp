@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
+#include "cli/run_report.h"
 #include "cli/settings_flags.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/scene/export_scene.h"
@@ -66,7 +67,8 @@ struct TracedKind {
   const char* verb;
 };
 
-int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTraceSteps& between) {
+int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTraceSteps& between,
+          RunReport& made) {
   const BakeSettings& settings = config.globals;
   const std::vector<BasisDirection> bases = choose_bases(settings.bake);
   LateBlender blender(settings);
@@ -99,28 +101,34 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
       report(run_reference({scene, exported.list, bases, earlier}, settings, plan, kind.verb, saved),
              settings.output);
   if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey);
+  made = made_from(config);
+  add_scene_inputs(survey.inputs, made);
+  add_lightmaps(made);
   return code;
 }
 
 }  // namespace
 
-int trace_reference(const ResolvedConfig& config) {
-  return trace(config, {"reference", plan_reference, "tracing"}, {});
+int trace_reference(const ResolvedConfig& config, RunReport& made) {
+  return trace(config, {"reference", plan_reference, "tracing"}, {}, made);
 }
 
-int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between) {
-  return trace(config, {"bake", plan_traced_bake, "baking"}, between);
+int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between, RunReport& made) {
+  return trace(config, {"bake", plan_traced_bake, "baking"}, between, made);
 }
 
 std::function<int()> add_reference_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "reference", "Trace what the lightmaps of a scene should hold, with standard errors");
   auto flags = std::make_shared<SettingsFlags>(*command, Purpose::reference);
-  return [flags] {
-    const auto config = flags->resolve();
-    if (!config) return static_cast<int>(ExitCode::ok);
-    StopRequest::install();
-    return trace_reference(*config);
+  auto run = std::make_shared<RunFlags>(*command);
+  return [flags, run] {
+    return run->run([&](RunReport& made) {
+      const auto config = flags->resolve();
+      if (!config) return static_cast<int>(ExitCode::ok);
+      StopRequest::install();
+      return trace_reference(*config, made);
+    });
   };
 }
 

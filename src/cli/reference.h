@@ -13,8 +13,11 @@ class App;
 
 namespace rnmbake {
 
-/// Traces the scene of these settings into their output folder. Returns the exit code; throws as its steps.
-int trace_reference(const ResolvedConfig& config);
+struct RunReport;
+
+/// Traces the scene of these settings into their output folder. `made`: what became of it. Returns the exit
+/// code; throws as its steps.
+int trace_reference(const ResolvedConfig& config, RunReport& made);
 
 /// What a bake does between the steps of its tracing; each may be empty.
 struct BetweenTraceSteps {
@@ -24,7 +27,7 @@ struct BetweenTraceSteps {
 };
 
 /// The same as trace_reference() for a bake with engine embree.
-int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between);
+int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between, RunReport& made);
 
 /// Registers `reference` and its flags; the function runs it and returns the exit code.
 std::function<int()> add_reference_command(CLI::App& app);

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/reference.h"
+#include "cli/run_report.h"
 #include "config/resolve.h"
 #include "config/value.h"
 #include "pipeline/run/hold_folder.h"
@@ -54,7 +55,8 @@ std::filesystem::path traced(const StudyFlags& flags) {
   const ResolvedConfig config = resolve({}, read_environment(process_environment()), given);
   require_scene(config, Purpose::reference);
   StopRequest::install();
-  if (trace_reference(config) != 0)
+  RunReport made;
+  if (trace_reference(config, made) != 0)
     fail(ExitCode::tasks_failed, "{} was not traced as a whole; see above", flags.what);
   return truth;
 }

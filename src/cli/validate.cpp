@@ -7,6 +7,7 @@
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/command_line.h"
+#include "cli/run_report.h"
 #include "cli/settings_flags.h"
 #include "config/recipe_names.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
@@ -26,13 +27,13 @@ namespace rnmbake {
 namespace {
 
 struct ValidateFlags {
-  explicit ValidateFlags(CLI::App& command) : settings(command, Purpose::validate) {
+  explicit ValidateFlags(CLI::App& command) : settings(command, Purpose::validate), run(command) {
     command
         .add_option("--study", study,
                     "split: also bake objects whole, by material, by loose part and by grid, for error and "
                     "time against the number of targets")
         ->check(CLI::IsMember({"split"}).description(""))
-        ->type_name("STUDY");
+        ->type_name("split");
     command
         .add_option("--decompose", decompose,
                     "objects that the published recipe bakes too, so that its error can be taken apart; it "
@@ -59,6 +60,7 @@ struct ValidateFlags {
         ->type_name("LIMITS");
   }
   SettingsFlags settings;
+  RunFlags run;
   std::string study, fail_above;
   std::vector<std::string> decompose = ValidateOptions{}.decompose;
   int view = ValidateOptions{}.view, probes = ValidateOptions{}.probes;
@@ -93,7 +95,23 @@ ThresholdOutcome write_reports(Validation& found, const ResolvedConfig& config, 
   return found.receiver.thresholds;
 }
 
-int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
+/// Names of the pages, the finding, and limits that were exceeded.
+RunReport report_of(const ResolvedConfig& config, const Validation& found, const ThresholdOutcome& limits) {
+  RunReport made = made_from(config);
+  add_scene_inputs(found.inputs, made);
+  made.main_file = made.output / "report.json";
+  made.files = {"report.html", "report.csv", "report.json"};
+  if (found.recipe) {
+    for (const char* name : {"report.html", "report.csv", "report.json"})
+      made.files.push_back(std::string(flat_normal_map_name) + "/" + name);
+  }
+  made.more["finding"] = found.receiver.finding;
+  made.more["complete"] = found.complete;
+  made.more["exceeded"] = describe(limits);
+  return made;
+}
+
+int validate(const ResolvedConfig& config, const ValidateFlags& flags, RunReport& made) {
   std::vector<Threshold> thresholds;
   if (!flags.fail_above.empty()) thresholds = parse_thresholds(flags.fail_above);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
@@ -104,7 +122,8 @@ int validate(const ResolvedConfig& config, const ValidateFlags& flags) {
   Validation found =
       validate(session, bases, {flags.decompose, flags.study == "split", flags.view, flags.probes});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
-  std::cout << printable(found.receiver.finding) << '\n';
+  made = report_of(config, found, limits);
+  if (!flags.run.json()) std::cout << printable(found.receiver.finding) << '\n';
   log::info("report: {}", (config.globals.output.dir / "report.html").string());
   for (const std::string& line : describe(limits)) log::error("{}", line);
   if (!limits.exceeded.empty()) return static_cast<int>(ExitCode::threshold_exceeded);
@@ -117,10 +136,12 @@ std::function<int()> add_validate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("validate", "Say how wrong the bake of a scene is, and why");
   auto flags = std::make_shared<ValidateFlags>(*command);
   return [flags] {
-    const auto config = flags->settings.resolve();
-    if (!config) return static_cast<int>(ExitCode::ok);
-    StopRequest::install();
-    return validate(*config, *flags);
+    return flags->run.run([&](RunReport& made) {
+      const auto config = flags->settings.resolve();
+      if (!config) return static_cast<int>(ExitCode::ok);
+      StopRequest::install();
+      return validate(*config, *flags, made);
+    });
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/json.h"
 #include "base/names.h"
 #include "base/read_file.h"
@@ -273,18 +274,27 @@ ProbeVolume volume_of(const json& entry, const fs::path& folder) {
 
 }  // namespace
 
-void write_volumes(const fs::path& folder, const std::vector<ProbeVolume>& volumes, const json& about) {
+std::vector<std::string> write_volumes(const fs::path& folder, const std::vector<ProbeVolume>& volumes,
+                                       const json& about) {
   FileStems stems;
-  json entries = json::array();
+  json entries = json::array(), hashes = json::object();
+  std::vector<std::string> names;
   for (const ProbeVolume& volume : volumes) {
     const std::string stem = stems.take(volume.name);
-    write_exr(folder / (stem + ".exr"), picture_of(volume), Depth::full);
-    if (volume.tree) write_exr(folder / (stem + "_tree.exr"), tree_picture(*volume.tree), Depth::full);
-    if (volume.depths.side > 0) write_exr(folder / (stem + "_depth.exr"), depth_picture(volume), Depth::full);
+    const auto write = [&](const std::string& name, const LayeredImage& picture) {
+      write_exr(folder / name, picture, Depth::full);
+      hashes[name] = file_hash128_hex(folder / name);
+      names.push_back(name);
+    };
+    write(stem + ".exr", picture_of(volume));
+    if (volume.tree) write(stem + "_tree.exr", tree_picture(*volume.tree));
+    if (volume.depths.side > 0) write(stem + "_depth.exr", depth_picture(volume));
     entries.push_back(json_of(volume, stem));
   }
-  const json whole{{"format", volume_format}, {"about", about}, {"volumes", entries}};
+  const json whole{{"format", volume_format}, {"about", about}, {"volumes", entries}, {"hashes", hashes}};
   write_atomically(folder / file_name, whole.dump(2) + '\n');
+  names.emplace_back(file_name);
+  return names;
 }
 
 StoredVolumes read_volumes(const fs::path& path) {

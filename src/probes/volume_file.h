@@ -4,6 +4,7 @@
 #include "probes/probe_volume.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,9 +14,9 @@ namespace rnmbake {
 /// docs/probes.md describes the files. A volume's picture has one texel for each probe, slices of z one below
 /// the other, row 0 at y = 0, z = 0; with a tree about as many rows as columns, filled row by row, and the
 /// cells in a picture of their own (probes/tree_file.h). `about` becomes the key "about" of probes.json: how
-/// the light was found. Throws Error(io).
-void write_volumes(const std::filesystem::path& folder, const std::vector<ProbeVolume>& volumes,
-                   const nlohmann::json& about);
+/// the light was found. Returns the names of the files, probes.json last. Throws Error(io).
+std::vector<std::string> write_volumes(const std::filesystem::path& folder,
+                                       const std::vector<ProbeVolume>& volumes, const nlohmann::json& about);
 
 struct StoredVolumes {
   std::vector<ProbeVolume> volumes;

@@ -13,6 +13,7 @@ namespace {
 
 std::atomic<int> first_signal = 0;
 std::array<std::atomic<pid_t>, 256> running_groups{};  // 0: free
+std::atomic<void (*)()> last_action = nullptr;
 static_assert(std::atomic<pid_t>::is_always_lock_free, "used in a signal handler");
 
 // Only async-signal-safe calls here.
@@ -24,6 +25,7 @@ void on_signal(int signal) {
       const pid_t id = group.load();
       if (id > 0) ::kill(-id, SIGKILL);
     }
+    if (const auto action = last_action.load()) action();
     ::_exit(128 + signal);
   }
   errno = saved;
@@ -45,6 +47,10 @@ void StopRequest::install() {
 
 int StopRequest::signal() {
   return first_signal.load();
+}
+
+void StopRequest::before_kill(void (*action)()) {
+  last_action.store(action);
 }
 
 void StopRequest::request(int signal) {

@@ -16,6 +16,10 @@ class StopRequest {
   /// The first signal that came; 0: none. The program's exit code is then 128 + signal.
   [[nodiscard]] static int signal();
 
+  /// Called before the second signal ends this process, in its handler: only async-signal-safe calls. One at
+  /// a time; nullptr: none.
+  static void before_kill(void (*action)());
+
   /// Raises the flag as a signal would; `reset` lowers it. For tests and for callers that give up on their
   /// own.
   static void request(int signal);

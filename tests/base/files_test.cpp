@@ -5,6 +5,7 @@
 #include "base/owner.h"
 #include "base/read_file.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -67,6 +68,36 @@ TEST(WriteAtomically, ReplacesTheFileAndLeavesNothingElse) {
   write_atomically(path, std::string_view("two\0three", 9));
   EXPECT_EQ(read_text(path), std::string("two\0three", 9));
   EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, LeavesAFileAloneThatHoldsTheSameBytes) {
+  const TempFolder folder;
+  const fs::path file = folder.path() / "manifest.json";
+  const auto writes = [&](const std::string& bytes) {
+    const auto before = fs::file_time_type::clock::now() - std::chrono::hours(1);
+    fs::last_write_time(file, before);
+    write_atomically(file, bytes);
+    EXPECT_EQ(read_text(file), bytes);
+    EXPECT_EQ(files_in(folder.path()), 1U) << "no temporary stays";
+    return fs::last_write_time(file) != before;
+  };
+  const std::string large(200'000, 'x');
+  write_atomically(file, large);
+  EXPECT_FALSE(writes(large));
+  EXPECT_TRUE(writes(large + "x"));
+  EXPECT_FALSE(writes(large + "x"));
+  EXPECT_TRUE(writes(large + "y")) << "the last byte";
+  EXPECT_TRUE(writes("y" + large)) << "the first byte";
+  EXPECT_TRUE(writes(""));
+  EXPECT_FALSE(writes(""));
+}
+
+TEST(WriteAtomically, ReplacesALinkByAFileWhateverItLeadsTo) {
+  const TempFolder folder;
+  write_atomically(folder.path() / "there", "same");
+  fs::create_symlink("there", folder.path() / "link");
+  write_atomically(folder.path() / "link", "same");
+  EXPECT_FALSE(fs::is_symlink(folder.path() / "link"));
 }
 
 TEST(WriteAtomically, FollowsTheUmask) {

@@ -1,6 +1,11 @@
 #include "base/log.h"
 
+#include "base/events/log_event.h"
+
+#include <limits>
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace rnmbake {
 namespace {
@@ -15,7 +20,8 @@ TEST(Log, TextNamesTheProgramAndTheLevel) {
 TEST(Log, JsonSurvivesAnyMessage) {
   const std::string line =
       log::format_line(log::Format::jsonl, log::Level::warning, "a \"b\" \\ c\nd\x01 ü", false);
-  EXPECT_NE(line.find(R"("level":"warning","message":"a \"b\" \\ c\nd\u0001 ü"})"), std::string::npos)
+  EXPECT_NE(line.find(R"("level":"warning","event":"message","message":"a \"b\" \\ c\nd\u0001 ü"})"),
+            std::string::npos)
       << line;
   EXPECT_EQ(line.find('\n'), std::string::npos);
 }
@@ -55,6 +61,24 @@ TEST(Log, AMessageClearsTheBarFirst) {
   log::info("y");
   log::draw_bar("");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "\r\033[K50 %\r\033[Krnmbake: x\nrnmbake: y\n");
+}
+
+TEST(LogEvent, HasItsFieldsInJsonAndItsMessageInText) {
+  const log::Fields fields{{"title", std::string("a \"b\"")},
+                           {"step", std::int64_t{3}},
+                           {"share", 0.25},
+                           {"seconds_left", std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_EQ(log::format_event(log::Format::text, log::Level::info, "step", "step 3", fields, false),
+            "rnmbake: step 3");
+  const auto line = nlohmann::json::parse(
+      log::format_event(log::Format::jsonl, log::Level::warning, "step", "step 3", fields, false));
+  EXPECT_EQ(line.at("event"), "step");
+  EXPECT_EQ(line.at("level"), "warning");
+  EXPECT_EQ(line.at("message"), "step 3");
+  EXPECT_EQ(line.at("title"), "a \"b\"");
+  EXPECT_EQ(line.at("step"), 3);
+  EXPECT_EQ(line.at("share"), 0.25);
+  EXPECT_TRUE(line.at("seconds_left").is_null());
 }
 
 }  // namespace

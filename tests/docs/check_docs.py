@@ -27,7 +27,7 @@ NOT_OURS = {".git", ".roots", "build", "out", "shared"}
 # Flags of other programs, as the documentation shows them.
 FOREIGN_FLAGS = {
     "--factory-startup", "--python", "--python-exit-code",  # blender
-    "--install",  # cmake
+    "--install", "--preset", "--build", "--prefix",  # cmake
     "--user", "--scope",  # systemd-run
     "--security-opt", "--privileged",  # docker
     "--info", "--ch", "--chnames",  # oiiotool

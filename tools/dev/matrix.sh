@@ -17,6 +17,17 @@ obstacle() {
   fi
 }
 
+# The smallest Debian SUITE in the new folder ROOT.
+bootstrap() {
+  local suite=$1 root=$2
+  mkdir -p "$root"
+  unshare --mount --propagation private debootstrap --variant=minbase "$suite" "$PWD/$root" \
+    "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" || return
+  printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" # start no services
+  chmod +x "$root/usr/sbin/policy-rc.d"
+  ln -sf /proc/self/mounts "$root/etc/mtab" # Blender warns without it
+}
+
 # Makes .roots/SUITE once. It grows as SUITE.part, so that one which was interrupted is never taken for a
 # whole one; what debootstrap had finished is kept.
 make_root() {
@@ -25,14 +36,9 @@ make_root() {
   echo "dev: making a Debian $suite in $root (once)" >&2
   if [[ ! -e $part/.base ]]; then
     rm -rf --one-file-system "$part"
-    mkdir -p "$part"
-    unshare --mount --propagation private debootstrap --variant=minbase "$suite" "$PWD/$part" \
-      "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" || return
+    bootstrap "$suite" "$part" || return
     touch "$part/.base"
   fi
-  printf '#!/bin/sh\nexit 101\n' >"$part/usr/sbin/policy-rc.d" # start no services
-  chmod +x "$part/usr/sbin/policy-rc.d"
-  ln -sf /proc/self/mounts "$part/etc/mtab" # Blender warns without it
   install_in "$suite.part" blender python3-numpy python3-requests python3-cattr || return
   touch "$part/.complete"
   rm -rf --one-file-system "$root"

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/work_progress.h"
 #include "blender/launch_watch.h"
+#include "jobs/jobserver.h"
 #include "pipeline/dispatch/batch_work.h"
 #include "pipeline/dispatch/kept_targets.h"
 #include "pipeline/dispatch/launch_batch.h"
@@ -62,7 +63,7 @@ class Dispatcher {
       return recipe_.most_pixels ? cut(batch, plan_, recipe_.most_pixels(batch, all_jobs))
                                  : std::vector{batch};
     });
-    jobs_ = choose_jobs(session.settings(), missing.size());
+    jobs_ = jobs_granted(jobserver_, choose_jobs(session.settings(), missing.size()));
     for (const MissingBatch& one : missing) {
       progress_.leave_out(-work_of(one));
       queue_.push_back({one, {}, nullptr, session.settings().run.retries});
@@ -105,6 +106,7 @@ class Dispatcher {
       --running_;
       changed_.notify_all();
     }
+    jobserver_.release();  // of the last worker there is none: it has make's own slot
   }
 
   std::optional<Attempt> next() {
@@ -279,6 +281,7 @@ class Dispatcher {
   PictureSink& sink_;
   const DispatchRules& rules_;
   KeptTargets kept_;
+  Jobserver jobserver_;
   int jobs_ = 1;
 
   std::mutex mutex_;

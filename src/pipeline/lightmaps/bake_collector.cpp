@@ -2,7 +2,6 @@
 
 #include "bake/assemble.h"
 #include "base/error.h"
-#include "base/log.h"
 #include "lightmap/half_errors.h"
 
 #include <array>
@@ -45,9 +44,9 @@ void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vec
 void BakeCollector::give_up(std::size_t target, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   if (deliveries_[target]) return;
-  deliveries_[target] = NotDelivered{reason};
+  const std::string& key = context_.targets[target].key;
+  deliveries_[target] = not_delivered(key, reason, key + ": " + reason);
   pending_[target].pictures.clear();
-  log::error("{}: {}", context_.targets[target].key, reason);
 }
 
 bool BakeCollector::is_settled(std::size_t target) const {
@@ -86,8 +85,7 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
     return delivered;
   } catch (const Error& error) {
     if (error.code() == ExitCode::io) throw;  // the next target would meet the same disk
-    log::error("{}", error.what());
-    return NotDelivered{error.what()};
+    return not_delivered(target.key, error.what(), error.what());
   }
 }
 

@@ -1,7 +1,9 @@
 #include "pipeline/lightmaps/deliver_lightmap.h"
 
 #include "base/error.h"
+#include "base/events/log_event.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/object_notes.h"
 #include "base/text.h"
@@ -66,6 +68,11 @@ std::size_t count_failed(const std::vector<Delivery>& deliveries) {
       [](const Delivery& delivery) { return !delivery || std::holds_alternative<NotDelivered>(*delivery); }));
 }
 
+NotDelivered not_delivered(const std::string& key, const std::string& reason, const std::string& line) {
+  log::event(log::Level::error, "failed", line, {{"object", key}, {"reason", reason}});
+  return NotDelivered{reason};
+}
+
 void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < deliveries.size(); ++i) {
@@ -105,7 +112,10 @@ Delivered deliver_lightmap(const TargetBakes& bakes, const LightmapHeader& heade
   for (const BasisBake& basis : bakes.bases) metadata.bases.push_back({basis.name, basis.direction});
   metadata.repaired = merged.counts.repaired > 0;
   write_metadata(metadata, merged.image);
-  return Delivered{write(output, header.stem, std::move(merged.image)), merged.counts, metadata.samples};
+  Delivered delivered{write(output, header.stem, std::move(merged.image)), merged.counts, metadata.samples};
+  for (const std::string& name : delivered.files)
+    delivered.hashes.push_back(file_hash128_hex(output.dir / name));
+  return delivered;
 }
 
 }  // namespace rnmbake

@@ -25,6 +25,7 @@ struct Delivered {
   MergeCounts counts;
   int samples = 0;            // that it has
   double standard_error = 0;  // of its texels over their mean (lightmap/half_errors.h); 0: not known
+  std::vector<std::string> hashes = {};  // [files] of their bytes, XXH3 of 128 bits
 };
 struct NotDelivered {
   std::string reason;
@@ -34,6 +35,10 @@ using Delivery = std::optional<std::variant<Delivered, NotDelivered>>;
 
 /// Number of targets without a lightmap.
 [[nodiscard]] std::size_t count_failed(const std::vector<Delivery>& deliveries);
+
+/// Logs why a target has no lightmap, as an event (docs/logs.md). `line`: what people read.
+[[nodiscard]] NotDelivered not_delivered(const std::string& key, const std::string& reason,
+                                         const std::string& line);
 
 /// Warns in one line of all lightmaps that are black.
 void warn_of_black(const std::vector<Target>& targets, const std::vector<Delivery>& deliveries);

@@ -86,8 +86,18 @@ LastRun::LastRun(const ResolvedConfig& config, std::string command, bool needs_b
     return;
   }
   reasons_ = reasons_to_run(*record, settings_);
+  files_ = record->files;
   if (!reasons_.empty()) return;
   write_record(record_file(), *record);  // with the times of files that were touched
+}
+
+std::vector<InputFile> LastRun::inputs() const {
+  std::vector<InputFile> inputs;
+  for (const RunFile& file : files_) {
+    const bool of_program = file.kind == "program" || file.kind == "blender" || file.kind == "output";
+    if (!of_program) inputs.push_back({file.kind, file.path, file.size >= 0});
+  }
+  return inputs;
 }
 
 fs::path LastRun::record_in(const fs::path& dir) {

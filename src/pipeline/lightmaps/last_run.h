@@ -24,6 +24,9 @@ class LastRun {
   /// Why it has to be run; empty: it need not be.
   [[nodiscard]] const Reasons& reasons() const { return reasons_; }
 
+  /// Files that it read, without those of the program itself; empty where nothing is known.
+  [[nodiscard]] std::vector<InputFile> inputs() const;
+
   /// What of the scene is not as it was in that run, once it is surveyed; empty where nothing is known.
   [[nodiscard]] Reasons scene_changes(const SceneDigest& now) const;
 
@@ -41,6 +44,7 @@ class LastRun {
   std::filesystem::path blender_;  // empty: not needed
   std::string settings_;
   Reasons reasons_;
+  std::vector<RunFile> files_;  // of the last run
 };
 
 }  // namespace rnmbake

@@ -38,7 +38,8 @@ json uv_json(const Target& target) {
       {"degenerate_triangles", report.degenerate_world}, {"wanted_resolution", target.wanted_side}};
 }
 
-json to_json(const BakeTimings& timings) {
+json timings_of(const BakeRecord& bake) {
+  const BakeTimings& timings = bake.timings;
   return {{"launches", timings.launches},
           {"failed_launches", timings.failed_launches},
           {"wall_seconds", timings.wall_seconds},
@@ -47,6 +48,12 @@ json to_json(const BakeTimings& timings) {
           {"bake_seconds", timings.bake_seconds},
           {"save_seconds", timings.save_seconds},
           {"peak_bytes", timings.peak_bytes}};
+}
+
+json timings_of(const ReferenceRecord& reference) {
+  std::int64_t rays = 0;
+  for (const auto& traced : reference.traced) rays += traced.rays;
+  return {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};
 }
 
 void add_to_object(const BakeRecord& bake, const ManifestInput& input, std::size_t index, json& entry) {
@@ -102,11 +109,13 @@ json describe_object(const ManifestInput& input, std::size_t index) {
     entry["status"] = "baked";
     entry["files"] = delivered->files;
     entry["samples"] = delivered->samples;
+    entry["hashes"] = delivered->hashes;
     entry["texels"] = to_json(delivered->counts);
     entry["coverage"] = double(delivered->counts.covered_texels) / (double(target.width) * target.height);
   } else {
     entry["status"] = "failed";
     entry["files"] = json::array();
+    entry["hashes"] = json::array();
     entry["error"] = delivery ? std::get<NotDelivered>(*delivery).reason : "not baked";
   }
   std::visit([&](const auto& record) { add_to_object(record, input, index, entry); }, input.record);
@@ -122,7 +131,6 @@ void add_to_top(const BakeRecord& bake, const BakeSettings& settings, json& mani
   manifest["engine"] = name_of(BakingSettings::Engine::cycles);
   manifest["materials"] = name_of(settings.scene.materials);
   manifest["dispatch"] = bake.dispatch;
-  manifest["timings"] = to_json(bake.timings);
 }
 
 void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings*/, json& manifest) {
@@ -139,9 +147,6 @@ void add_to_top(const ReferenceRecord& reference, const BakeSettings& /*settings
   for (const OutsideModel& outside : reference.outside)
     manifest["outside_model"].push_back(
         {{"owner", outside.owner}, {"what", outside.what}, {"untraced", outside.untraced}});
-  std::int64_t rays = 0;
-  for (const auto& traced : reference.traced) rays += traced.rays;
-  manifest["timings"] = {{"wall_seconds", reference.wall_seconds}, {"rays", rays}};
 }
 
 /// Object and UV layer of a lightmap in the saved scene; "" and -1 where that was not saved.
@@ -211,6 +216,8 @@ nlohmann::json make_manifest(const ManifestInput& input) {
 }
 
 void write_manifest(const ManifestInput& input) {
+  const json timings = std::visit([](const auto& record) { return timings_of(record); }, input.record);
+  write_atomically(input.settings.output.dir / "timings.json", timings.dump(2) + "\n");
   write_atomically(input.settings.output.dir / "manifest.json", make_manifest(input).dump(2) + "\n");
 }
 

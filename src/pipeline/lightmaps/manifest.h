@@ -1,5 +1,5 @@
-// pipeline/lightmaps/manifest.h - DIR/manifest.json: targets, their source, settings and outcome
-// (docs/manifest.md).
+// pipeline/lightmaps/manifest.h - DIR/manifest.json: targets, their source, settings and outcome;
+// DIR/timings.json (docs/manifest.md).
 #pragma once
 
 #include "bake/receiver.h"
@@ -55,10 +55,11 @@ struct ManifestInput {
 };
 
 /// Lists the lightmaps of this run, and those of an earlier one that still fit, in the scene's order.
-/// Everything except "timings" is the same whenever the same bake is run again.
+/// The same whenever the same bake is run again, and another one as soon as a byte of a lightmap is.
 [[nodiscard]] nlohmann::json make_manifest(const ManifestInput& input);
 
-/// Writes it to the output folder.
+/// Writes it to the output folder, and before that DIR/timings.json: what the run cost, which differs from
+/// run to run.
 void write_manifest(const ManifestInput& input);
 
 }  // namespace rnmbake

@@ -169,8 +169,7 @@ Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bo
         "no texel's centre lies in a face of '{}': are its faces smaller than a texel? Raise --resolution "
         "or --texels-per-unit",
         header.metadata.object);
-    log::error("{}", reason);
-    return NotDelivered{reason};
+    return not_delivered(header.metadata.object, reason, reason);
   }
   TargetBakes bakes;
   ExtraLayers extra;
@@ -190,8 +189,7 @@ Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bo
     return deliver_lightmap(bakes, header, input.settings.output, std::move(extra));
   } catch (const Error& error) {
     if (error.code() != ExitCode::tasks_failed) throw;
-    log::error("{}", error.what());
-    return NotDelivered{error.what()};
+    return not_delivered(header.metadata.object, error.what(), error.what());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "encoding/basis_set.h"
 #include "pipeline/validate/validate_options.h"
 #include "report/comparison.h"
+#include "scene/scene_digest.h"
 
 #include <optional>
 #include <vector>
@@ -14,8 +15,9 @@ namespace rnmbake {
 /// Two reports on the same truth. The receiver's has the decomposition of the recipe's error and the study.
 struct Validation {
   Report receiver;
-  std::optional<Report> recipe;  // none where no object is decomposed
-  bool complete = true;          // no object failed in any bake
+  std::optional<Report> recipe;        // none where no object is decomposed
+  bool complete = true;                // no object failed in any bake
+  std::vector<InputFile> inputs = {};  // that the scene read
 };
 
 /// Bakes the scene of the settings by both recipes, twice each with half of the samples, so that the noise is
