@@ -5,6 +5,7 @@
 Takes the words that rnmbake uses, in their order, as `blender` does; of others it says that it does not know them. What
 Blender does for itself is done here: whether scripts of a file may run, threads, sys.argv, exit codes.
 """
+import ctypes
 import importlib
 import os
 import runpy
@@ -93,6 +94,7 @@ def main():
             print(end.code, file=sys.stderr)
     sys.stdout.flush()
     sys.stderr.flush()
+    ctypes.CDLL(None).fflush(None)  # what Blender has printed: C keeps it where it goes into a file
     os._exit(code)  # taking the module down may crash, and nothing is left to be done
 
 

@@ -90,6 +90,8 @@ def run(main):
     task = Task(sys.argv[sys.argv.index("--") + 1])
     try:
         outcome = {"ok": main(task)}
+        if task.disk_is_full(""):  # pictures that Blender could not write, which it may say nowhere but in a log there
+            outcome = task.full_disk()
     except Refusal as refusal:
         outcome = {"refused": {"code": refusal.code, "message": str(refusal), "object": refusal.object_name}}
         if task.disk_is_full(refusal):
