@@ -92,6 +92,14 @@ add_test(NAME saved_scene.check
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)
 set_tests_properties(saved_scene.check PROPERTIES LABELS blender TIMEOUT 1200)
 
+# A bake as tasks for many machines, and on a Slurm of two nodes where there is one.
+foreach(CLASS Tasks Slurm)
+  add_test(NAME farm.${CLASS}
+    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/farm/farm_check.py -v ${CLASS})
+  set_tests_properties(farm.${CLASS} PROPERTIES LABELS "blender;farm" TIMEOUT 2400 SKIP_REGULAR_EXPRESSION "SKIPPED: no Slurm")
+endforeach()
+
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
 target_link_libraries(sample_report PRIVATE report rnm_warnings)

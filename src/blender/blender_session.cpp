@@ -31,8 +31,9 @@ std::string purpose_of(const Launch& launch) {
 
 }  // namespace
 
-BlenderSession::BlenderSession(const ResolvedConfig& config, Blender& blender)
-    : config_(config), blender_(blender) {
+BlenderSession::BlenderSession(const ResolvedConfig& config, Blender& blender,
+                               const std::filesystem::path& parent)
+    : config_(config), blender_(blender), folder_(parent) {
   if (!settings().output.keep_temporary) return;
   folder_.keep();
   mark_as_kept(folder_.path());

@@ -18,7 +18,8 @@ namespace rnmbake {
 /// files.
 class BlenderSession {
  public:
-  BlenderSession(const ResolvedConfig& config, Blender& blender);
+  /// The private folder lies in `parent`, or where TMPDIR points.
+  BlenderSession(const ResolvedConfig& config, Blender& blender, const std::filesystem::path& parent = {});
 
   [[nodiscard]] const ResolvedConfig& config() const { return config_; }
   [[nodiscard]] const BakeSettings& settings() const { return config_.globals; }

@@ -14,6 +14,7 @@
 #include "cli/decode.h"
 #include "cli/doctor.h"
 #include "cli/export.h"
+#include "cli/farm/farm.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
 #include "cli/probes.h"
@@ -149,6 +150,21 @@ constexpr const char* about_cache =
     "the\n"
     "variable RNMBAKE_CACHE or `cache` in [run] of a project file name the folder, --cache-limit its size.";
 
+constexpr const char* about_submit =
+    "\n\nPlans what `rnmbake bake` with the same settings would bake, and writes it down as tasks that any\n"
+    "machine may run which sees the plan, the cache and the scene under the same names. Their results meet "
+    "in\n"
+    "the cache; a last `rnmbake bake ... --merge PLAN` makes the lightmaps, the same to the last digit as\n"
+    "those of one machine. docs/farm.md tells how, for any queue.";
+
+constexpr const char* about_task =
+    "\n\nBakes those passes of one task that the cache does not hold, and writes PLAN/tasks/N.json. It may "
+    "be\n"
+    "killed and run again, or run twice at once. Exit code 6 says that objects failed.";
+
+constexpr const char* about_status =
+    "\n\nCounts the files in PLAN/tasks, which are the truth whatever a queue remembers.";
+
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
     "the\n"
@@ -182,6 +198,9 @@ const std::vector<Command>& commands() {
       {"cache", add_cache_command, about_cache},
       {"completion", add_completion_command},
       {"man", add_man_command},
+      {"submit", add_submit_command, about_submit},
+      {"task", add_task_command, about_task},
+      {"status", add_status_command, about_status},
   };
   return all;
 }

@@ -12,6 +12,7 @@
 #include "cli/settings_flags.h"
 #include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
+#include "pipeline/farm/task_result.h"
 #include "pipeline/lightmaps/last_run.h"
 #include "pipeline/reference/reference_plan.h"
 #include "pipeline/run/result_store.h"
@@ -20,6 +21,7 @@
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -50,6 +52,7 @@ std::optional<double> deadline_of(const RunSettings& run, double started) {
 
 struct BakeFlags {
   bool why = false, dry_run = false, force = false;
+  std::filesystem::path merge;  // plan of rnmbake submit; "": bake
 };
 
 /// Says what made the run necessary; with --why all of it.
@@ -94,14 +97,34 @@ int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const L
   return trace_bake(config, between, made);
 }
 
-int bake(const ResolvedConfig& config, const BakeFlags& flags, RunReport& made) {
+/// The plan whose passes are merged, with its cache and atlases for the settings.
+std::optional<FarmPlan> plan_to_merge(const BakeFlags& flags, BakeSettings& settings) {
+  if (flags.merge.empty()) return std::nullopt;
+  FarmPlan plan = read_farm_plan(flags.merge);
+  settings.run.cache = plan.settings.at("cache").get<std::string>();
+  settings.run.jobs = plan.settings.at("jobs").get<int>();
+  settings.bake.memory_limit = plan.settings.at("memory_limit").get<int>();
+  return plan;
+}
+
+/// Says of each target why passes of it are missing.
+std::function<std::string(std::size_t)> reasons_of(const std::optional<FarmPlan>& plan,
+                                                   const std::vector<Target>& targets) {
+  if (!plan) return {};
+  return [&targets, &plan, results = read_task_results(*plan)](std::size_t target) {
+    return why_missing(*plan, results, targets[target].key);
+  };
+}
+
+int bake(ResolvedConfig config, const BakeFlags& flags, RunReport& made) {
   const double started = steady_clock().now();
+  const std::optional<FarmPlan> plan = plan_to_merge(flags, config.globals);
   const bool traced = is_traced(config.globals);
   if (traced) (void)plan_traced_bake(config, "5.0");  // throws for what only Cycles does
   const OutputSettings& output = config.globals.output;
   if (output.dir.empty()) (void)prepare_output(output, config.globals.run);  // throws
   const LastRun last(config, "bake", !traced || !is_rnmscene(config.globals.scene.file));
-  if (last.reasons().empty() && !flags.force) {
+  if (last.reasons().empty() && !flags.force && !plan) {
     log::info("nothing to do: {} is up to date", output.dir.string());
     made = made_from(config);
     add_scene_inputs(last.inputs(), made);
@@ -123,11 +146,14 @@ int bake(const ResolvedConfig& config, const BakeFlags& flags, RunReport& made) 
   EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
   Store store = open_store(config.globals);
   const DispatchRules rules{{store, scene_key(session, scene.survey)},
-                            deadline_of(config.globals.run, started)};
+                            deadline_of(config.globals.run, started),
+                            {},
+                            reasons_of(plan, list.targets)};
   const BakeSubject subject{scene.survey, list, bases, scene.blends, std::move(earlier), rules};
   if (flags.dry_run) return show_plan(preview_bake(session, subject));
   const int code = report(run_bake(session, subject), output);
   if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey);
+  if (plan) note_merged(*plan, code);
   made = made_from(config);
   add_scene_inputs(scene.survey.inputs, made);
   add_lightmaps(made);
@@ -164,6 +190,10 @@ std::function<int()> add_bake_command(CLI::App& app) {
   command->add_flag("--why", more->why, "list all that made the bake necessary");
   command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");
   command->add_flag("--force", more->force, "look for changes in the scene even where no file changed");
+  command
+      ->add_option("--merge", more->merge,
+                   "bake nothing: merge what the tasks of this plan (rnmbake submit) baked")
+      ->type_name("PLAN");
   auto run = std::make_shared<RunFlags>(*command);
   return [flags, more, run] {
     return run->run([&](RunReport& made) {

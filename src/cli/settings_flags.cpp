@@ -173,4 +173,8 @@ std::optional<ResolvedConfig> SettingsFlags::resolve() const {
   return resolve(std::cout);
 }
 
+std::string SettingsFlags::scene_argument() const {
+  return scene_->count() > 0 ? scene_->results().back() : std::string();
+}
+
 }  // namespace rnmbake

@@ -38,6 +38,9 @@ class SettingsFlags {
   [[nodiscard]] std::vector<ResolvedConfig> resolve_all() const;
   void take_several_scenes(CLI::App& command);
 
+  /// SCENE as it was typed, a scene or a project file; "" where none was.
+  [[nodiscard]] std::string scene_argument() const;
+
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
   [[nodiscard]] std::vector<SettingOverride> given_flags() const;

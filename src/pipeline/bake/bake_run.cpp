@@ -219,6 +219,13 @@ std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject
   return all;
 }
 
+void plan_only(const BlenderSession& session, const BakeSubject& subject,
+               const std::function<void(const Plan&, const BatchRecipe&)>& use) {
+  const PlannedBake planned = plan_bake(session.settings(), subject, session.blender().info());
+  const BakeContext context{subject.survey, subject.list.targets, subject.bases, planned.plan};
+  use(planned.plan, recipe_of(session.settings(), context));
+}
+
 BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
   const BakeSettings& settings = session.settings();
   const std::vector<Target>& targets = subject.list.targets;

@@ -11,6 +11,7 @@
 #include "pipeline/scene/scene_survey.h"
 #include "scene/survey.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,9 @@ struct BakePreview {
 
 /// Looks for what was baked before; nothing is baked or written.
 [[nodiscard]] std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject& subject);
+
+/// Plans a bake as run_bake() does, and hands over its plan and how batches are asked for; nothing is baked.
+void plan_only(const BlenderSession& session, const BakeSubject& subject,
+               const std::function<void(const Plan&, const BatchRecipe&)>& use);
 
 }  // namespace rnmbake

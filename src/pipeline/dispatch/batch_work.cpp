@@ -64,18 +64,41 @@ json BatchWork::launch_request() const {
 
 void BatchWork::take_kept() {
   while (!is_complete()) {
-    auto pictures = cache_.find(key_of(next_), pictures_.size());
+    auto pictures = find_kept();
     if (!pictures) return;
     kept_ += texels_ * passes_[next_].count;
     add(next_, std::move(*pictures));
   }
 }
 
+/// The next pass, of its own or cut out of a whole's.
+std::optional<std::vector<BakedPicture>> BatchWork::find_kept() const {
+  for (const WholeBatch& whole : rules_.wholes) {
+    const ResultKey key = PassCache::key_of(whole.request, passes_[next_], seed_, left_out_[next_]);
+    auto all = cache_.has(key) ? cache_.find(key, whole.rects.size()) : std::nullopt;
+    if (!all) continue;
+    std::vector<BakedPicture> own;
+    for (const std::size_t rect : layout().rects) {
+      const auto place = std::ranges::find(whole.rects, rect) - whole.rects.begin();
+      own.push_back(std::move((*all)[std::size_t(place)]));
+    }
+    return own;
+  }
+  return cache_.find(key_of(next_), pictures_.size());
+}
+
 bool BatchWork::take_finished(bool keep_files) {
   bool is_new = false;
   while (!is_complete()) {
     const std::vector<std::string> files = pass_files(next_, layout());
-    if (!fs::exists(folder_ / files.back())) return is_new;
+    if (!fs::exists(folder_ / files.back())) {
+      const std::size_t before = next_, planned = passes_.size();
+      if (cache_.has(key_of(next_))) take_kept();  // the launch was told to leave it out
+      if (next_ == before) return is_new;
+      if (by_rounds() && next_ >= planned) answer(planned);
+      is_new = true;
+      continue;
+    }
     std::vector<FloatImage> rects = read_rects(layout(), plan_, folder_, next_);
     const SamplePass pass = passes_[next_];
     std::vector<BakedPicture> pictures(rects.size());
@@ -99,6 +122,10 @@ EarlierPictures BatchWork::so_far() const {
     if (pictures_[i].all_samples() > 0) earlier[layout().rects[i]] = pictures_[i];
   }
   return earlier;
+}
+
+std::vector<SamplePass> BatchWork::passes_left() const {
+  return {passes_.begin() + std::ptrdiff_t(next_), passes_.end()};
 }
 
 std::vector<ResultKey> BatchWork::used_keys() const {
@@ -125,7 +152,12 @@ HalfSamples BatchWork::shared_out(int samples) const {
 void BatchWork::plan_passes(const HalfSamples& done) {
   reached_ = done;
   earlier_ = texels_ * (done[0] + done[1]);
-  if (rules_.whole) {
+  if (!rules_.only.empty()) {
+    passes_ = rules_.only;
+    left_out_.resize(passes_.size());
+    wanted_ = done[0] + done[1];
+    for (const SamplePass& pass : passes_) wanted_ += pass.count;
+  } else if (rules_.whole) {
     passes_ = {{0, 0, wanted_, wanted_}};
     left_out_.resize(1);
   } else if (by_rounds()) {

@@ -19,6 +19,12 @@ namespace rnmbake {
 /// Pictures that a batch goes on from, by atlas rectangle; none: from nothing.
 using EarlierPictures = std::map<std::size_t, BakedPicture>;
 
+/// A batch of which another one is a piece: where its passes lie in the cache, with which rectangles.
+struct WholeBatch {
+  ResultKey request;
+  std::vector<std::size_t> rects;  // in its layout's order
+};
+
 /// Passes are taken in strictly in order, wherever they come from, so that the mean is the same to the last
 /// digit.
 class BatchWork {
@@ -29,6 +35,8 @@ class BatchWork {
     PassCost cost;
     std::optional<double> deadline;  // on the clock; then the best that fits
     const Clock* clock = &steady_clock();
+    std::vector<SamplePass> only = {};    // these passes alone; none: all
+    std::vector<WholeBatch> wholes = {};  // whose passes count as its own, the largest first
   };
 
   /// `request` and its arrays in `folder`. Where an error or a time decides how long to go on, passes are
@@ -54,6 +62,12 @@ class BatchWork {
   [[nodiscard]] bool is_complete() const { return next_ == passes_.size(); }
   /// Passes that are there, and the samples that one of them takes.
   [[nodiscard]] std::size_t passes_done() const { return next_; }
+
+  /// All passes in their order with their keys, those that are missing, and what a piece looks its own up by.
+  [[nodiscard]] const std::vector<SamplePass>& passes() const { return passes_; }
+  [[nodiscard]] ResultKey key_of(std::size_t pass) const;
+  [[nodiscard]] std::vector<SamplePass> passes_left() const;
+  [[nodiscard]] WholeBatch as_whole() const { return {key_, layout().rects}; }
 
   /// Texels x samples that are missing at first, as far as can be told now, those of them that are done, and
   /// those that came from the cache.
@@ -82,7 +96,7 @@ class BatchWork {
   [[nodiscard]] int samples_in_time() const;
   [[nodiscard]] double expected_work(double greatest_ratio) const;
   [[nodiscard]] std::map<std::size_t, double> noise_by_target() const;
-  [[nodiscard]] ResultKey key_of(std::size_t pass) const;
+  [[nodiscard]] std::optional<std::vector<BakedPicture>> find_kept() const;
   void add(std::size_t pass, std::vector<BakedPicture> pictures);
   void answer(std::size_t number) const;
 

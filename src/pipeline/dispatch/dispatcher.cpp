@@ -8,11 +8,10 @@
 #include "pipeline/dispatch/batch_work.h"
 #include "pipeline/dispatch/kept_targets.h"
 #include "pipeline/dispatch/launch_batch.h"
-#include "pipeline/dispatch/memory.h"
-#include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -33,6 +32,7 @@ struct Attempt {
   std::shared_ptr<BatchWork> work;  // from the first try on
   int retries_left = 0;
   bool was_killed = false;
+  std::vector<WholeBatch> wholes = {};  // whose piece it is, where pieces are looked into
 
   [[nodiscard]] const Batch& batch() const { return missing.batch; }
 };
@@ -59,10 +59,8 @@ class Dispatcher {
         kept_(plan, rules.cache, sink),
         progress_(0) {
     const auto all_jobs = choose_jobs(session.settings(), plan.batches.size());
-    const std::vector<MissingBatch> missing = kept_.missing([&](const Batch& batch) {
-      return recipe_.most_pixels ? cut(batch, plan_, recipe_.most_pixels(batch, all_jobs))
-                                 : std::vector{batch};
-    });
+    const std::vector<MissingBatch> missing =
+        rules.shares.empty() ? kept_.missing(cut_by(recipe_, plan_, all_jobs)) : rules.shares;
     jobs_ = jobs_granted(jobserver_, choose_jobs(session.settings(), missing.size()));
     for (const MissingBatch& one : missing) {
       progress_.leave_out(-work_of(one));
@@ -78,8 +76,10 @@ class Dispatcher {
     watch();
     for (std::thread& worker : workers) worker.join();
     if (error_) std::rethrow_exception(error_);
-    for (const ResultKey& key : used_) rules_.cache.forget(key);
-    kept_.forget_journal();
+    if (rules_.shares.empty() && !lacks_passes_) {
+      for (const ResultKey& key : used_) rules_.cache.forget(key);
+      kept_.forget_journal();
+    }
     timings_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return timings_;
   }
@@ -137,9 +137,11 @@ class Dispatcher {
     rules.whole = !recipe_.in_passes;
     rules.deadline = rules_.deadline;
     rules.halves = rules_.halves;
+    rules.only = attempt.missing.passes;
+    rules.wholes = attempt.wholes;
     BakeRequest request = recipe_.request(attempt.batch(), jobs_, folder);
     rules.cost = cost_of(plan_, request.layout, recipe_.scene_triangles);
-    if (attempt.earlier.empty()) attempt.earlier = kept_.earlier(attempt.missing);
+    if (attempt.earlier.empty() && attempt.wholes.empty()) attempt.earlier = kept_.earlier(attempt.missing);
     attempt.work = std::make_shared<BatchWork>(plan_, attempt.batch(), std::move(request), folder, rules,
                                                std::exchange(attempt.earlier, {}), rules_.cache);
     attempt.work->take_kept();
@@ -150,6 +152,7 @@ class Dispatcher {
     if (is_settled(attempt.batch()) || given_up(attempt.batch())) return;
     if (!attempt.work) begin(attempt);
     BatchWork& work = *attempt.work;
+    if (!work.is_complete() && rules_.why_missing) return look_into_pieces(attempt);
     if (!work.is_complete()) {
       const std::size_t passes_before = work.passes_done();
       const double before = work.done();
@@ -168,7 +171,7 @@ class Dispatcher {
 
   void deliver(BatchWork& work) {
     std::vector<BakedPicture> pictures = work.take_pictures();
-    kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
+    if (rules_.shares.empty()) kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
     sink_.take(work.batch(), work.layout(), std::move(pictures));
     progress_.leave_out(work.take_less_work());
     progress_.finish(work.batch().tasks.front(), work.done() - work.kept());
@@ -215,9 +218,32 @@ class Dispatcher {
   void divide(const Attempt& attempt, const LaunchFailure& failure) {
     const Batch& batch = attempt.batch();
     log::warn("{}; splitting {} bakes to find the offender", describe(failure), batch.tasks.size());
+    // A share has pictures of no use to it, and its halves bake the very passes that it lacks.
+    const bool is_share = !rules_.shares.empty();
+    const EarlierPictures earlier = is_share ? EarlierPictures{} : attempt.work->so_far();
+    const auto passes = is_share ? attempt.work->passes_left() : std::vector<SamplePass>{};
+    for (Batch& half : split(batch, plan_))
+      enqueue({{std::move(half), attempt.missing.done, passes}, earlier, nullptr, attempt.retries_left});
+  }
+
+  /// A batch that failed elsewhere was split there, pass by pass.
+  void look_into_pieces(const Attempt& attempt) {
+    const Batch& batch = attempt.batch();
+    if (batch.tasks.size() == 1) {
+      lacks_passes_ = true;
+      const std::size_t target = plan_.tasks[batch.tasks.front()].target;
+      return sink_.give_up(target, rules_.why_missing(target));
+    }
+    std::vector<WholeBatch> wholes = attempt.wholes;
+    wholes.push_back(attempt.work->as_whole());
     const EarlierPictures earlier = attempt.work->so_far();
     for (Batch& half : split(batch, plan_))
-      enqueue({{std::move(half), attempt.missing.done}, earlier, nullptr, attempt.retries_left});
+      enqueue({{std::move(half), attempt.missing.done, attempt.work->passes_left()},
+               earlier,
+               nullptr,
+               0,
+               false,
+               wholes});
   }
 
   void note_failure(const LaunchFailure& failure) {
@@ -293,28 +319,11 @@ class Dispatcher {
   int hangs_ = 0;
   std::string verdict_;          // on the scene, where that is what hangs Blender
   std::vector<ResultKey> used_;  // of passes
+  std::atomic<bool> lacks_passes_ = false;
   WorkProgress progress_;
 };
 
 }  // namespace
-
-int choose_jobs(const BakeSettings& settings, std::size_t batches) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int wanted = settings.run.jobs > 0 ? settings.run.jobs : cores;
-  return std::clamp(static_cast<int>(batches), 1, wanted);
-}
-
-BatchRecipe receiver_requests(const BakeSettings& settings, const SceneSurvey& survey, const Plan& plan) {
-  BatchRecipe recipe;
-  recipe.most_pixels = [&](const Batch& batch, int jobs) {
-    return atlas_pixels_for(settings, survey, plan, batch, jobs);
-  };
-  recipe.request = [&](const Batch& batch, int jobs, const fs::path& folder) {
-    return receiver_request(plan, batch, atlas_pixels_for(settings, survey, plan, batch, jobs), folder);
-  };
-  recipe.scene_triangles = scene_triangles(survey);
-  return recipe;
-}
 
 BakeTimings run_batches(BlenderSession& session, const Plan& plan, const BlendPath& blend,
                         const BatchRecipe& recipe, PictureSink& sink, const DispatchRules& rules) {

@@ -70,7 +70,7 @@ std::vector<MissingBatch> KeptTargets::missing(const Cut& cut) {
       if (found != missing.end()) by_samples[found->second].tasks.push_back(task);
     }
     for (const auto& [samples, tasks] : by_samples) {
-      for (Batch& piece : cut(tasks)) batches.push_back({std::move(piece), samples});
+      for (Batch& piece : cut(tasks)) batches.push_back({std::move(piece), samples, {}});
     }
   }
   return batches;

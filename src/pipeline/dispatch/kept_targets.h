@@ -18,6 +18,7 @@ namespace rnmbake {
 struct MissingBatch {
   Batch batch;
   HalfSamples done{0, 0};
+  std::vector<SamplePass> passes = {};  // just these of its passes; none: all that lead to its samples
 };
 
 /// Thread-safe but for missing().

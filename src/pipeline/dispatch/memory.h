@@ -16,7 +16,7 @@ namespace rnmbake {
 
 /// Pixels of one atlas of a batch: --atlas-limit, less where memory for one of `jobs` Blenders is short,
 /// and less where one pass would take more than several minutes.
-[[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, const SceneSurvey& survey,
+[[nodiscard]] std::int64_t atlas_pixels_for(const BakeSettings& settings, std::int64_t scene_triangles,
                                             const Plan& plan, const Batch& batch, int jobs);
 
 }  // namespace rnmbake
