@@ -14,7 +14,7 @@
 #include "cli/decode.h"
 #include "cli/doctor.h"
 #include "cli/export.h"
-#include "cli/farm.h"
+#include "cli/farm/farm.h"
 #include "cli/help_format.h"
 #include "cli/inspect.h"
 #include "cli/probes.h"

@@ -76,7 +76,7 @@ class Dispatcher {
     watch();
     for (std::thread& worker : workers) worker.join();
     if (error_) std::rethrow_exception(error_);
-    if (rules_.shares.empty() && !lacks_passes_) {
+    if (rules_.shares.empty() && !rules_.why_missing) {  // a merge may have to be made again
       for (const ResultKey& key : used_) rules_.cache.forget(key);
       kept_.forget_journal();
     }
@@ -171,7 +171,8 @@ class Dispatcher {
 
   void deliver(BatchWork& work) {
     std::vector<BakedPicture> pictures = work.take_pictures();
-    if (rules_.shares.empty()) kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
+    if (rules_.shares.empty() && !rules_.why_missing)
+      kept_.keep(work.layout(), pictures, rules_.deadline.has_value());
     sink_.take(work.batch(), work.layout(), std::move(pictures));
     progress_.leave_out(work.take_less_work());
     progress_.finish(work.batch().tasks.front(), work.done() - work.kept());

@@ -1,4 +1,4 @@
-#include "cli/farm.h"
+#include "cli/farm/farm.h"
 
 #include "base/error.h"
 #include "base/log.h"

@@ -1,4 +1,4 @@
-// cli/merge_arguments.h - the command that merges what the tasks of a plan baked.
+// cli/farm/merge_arguments.h - the command that merges what the tasks of a plan baked.
 #pragma once
 
 #include "config/resolve.h"

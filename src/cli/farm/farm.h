@@ -1,4 +1,4 @@
-// cli/farm.h - a bake on many machines: `rnmbake submit`, `task`, `status`.
+// cli/farm/farm.h - a bake on many machines: `rnmbake submit`, `task`, `status`.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "cli/merge_arguments.h"
+#include "cli/farm/merge_arguments.h"
 
 #include "cli/command_line.h"
 #include "config/settings.h"
