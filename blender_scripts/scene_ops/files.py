@@ -1,6 +1,7 @@
 """Paths of the files that data-blocks name, and fingerprints of their content."""
 import hashlib
 import os
+import re
 
 import bpy
 
@@ -16,9 +17,28 @@ def picture_files(image, user=None):
         return []
     if image.source == "TILED":
         return [absolute(tile_path(image.filepath, tile.number), image) for tile in image.tiles]
-    if image.source == "SEQUENCE" and user is not None and hasattr(image, "filepath_from_user"):
-        return [absolute(image.filepath_from_user(image_user=user), image)]
+    if image.source == "SEQUENCE" and user is not None:
+        return [absolute(numbered(image.filepath, frame_of(user, bpy.context.scene.frame_current)), image)]
     return [absolute(image.filepath, image)]
+
+
+def frame_of(user, frame):
+    """Number of the file that an image user shows at a frame, as Blender finds it. Blender's own answer,
+    filepath_from_user(), is that of the last frame that was drawn, of which there is none here."""
+    shown = frame - user.frame_start + 1
+    if user.use_cyclic:
+        shown = (shown - 1) % max(user.frame_duration, 1) + 1
+    return min(max(shown, 1), max(user.frame_duration, 1)) + user.frame_offset
+
+
+def numbered(path, number):
+    """The file of that number in a sequence: the last digits of the name stand for it."""
+    folder, name = os.path.split(path)
+    stem, ending = os.path.splitext(name)
+    digits = re.search(r"(\d+)(\D*)$", stem)
+    if not digits:
+        return path
+    return os.path.join(folder, f"{stem[:digits.start()]}{number:0{len(digits[1])}d}{digits[2]}{ending}")
 
 
 def tile_path(path, number):

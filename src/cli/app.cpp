@@ -15,7 +15,7 @@
 #include "cli/doctor.h"
 #include "cli/export.h"
 #include "cli/farm/farm.h"
-#include "cli/help_format.h"
+#include "cli/flags/help_format.h"
 #include "cli/inspect.h"
 #include "cli/probes.h"
 #include "cli/reference.h"

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "cli/command_line.h"
+#include "cli/flags/command_line.h"
 #include "pipeline/compare/compare.h"
 #include "pipeline/run/hold_folder.h"
 #include "report/thresholds.h"

@@ -5,7 +5,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
-#include "cli/settings_flags.h"
+#include "cli/flags/settings_flags.h"
 #include "pipeline/scene/export_scene.h"
 #include "process/stop.h"
 

@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "blender/late_blender.h"
+#include "cli/flags/settings_flags.h"
 #include "cli/inspect_scene.h"
 #include "cli/inspect_write.h"
-#include "cli/settings_flags.h"
 #include "pipeline/scene/scene_survey.h"
 #include "process/stop.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "cli/command_line.h"
+#include "cli/flags/command_line.h"
 #include "jobs/depfile.h"
 #include "pipeline/lightmaps/manifest_file.h"
 

@@ -1,6 +1,6 @@
 #include "cli/farm/merge_arguments.h"
 
-#include "cli/command_line.h"
+#include "cli/flags/command_line.h"
 #include "config/settings.h"
 
 #include <spdlog/fmt/ranges.h>

@@ -231,7 +231,6 @@ class Dispatcher {
   void look_into_pieces(const Attempt& attempt) {
     const Batch& batch = attempt.batch();
     if (batch.tasks.size() == 1) {
-      lacks_passes_ = true;
       const std::size_t target = plan_.tasks[batch.tasks.front()].target;
       return sink_.give_up(target, rules_.why_missing(target));
     }
@@ -320,7 +319,6 @@ class Dispatcher {
   int hangs_ = 0;
   std::string verdict_;          // on the scene, where that is what hangs Blender
   std::vector<ResultKey> used_;  // of passes
-  std::atomic<bool> lacks_passes_ = false;
   WorkProgress progress_;
 };
 

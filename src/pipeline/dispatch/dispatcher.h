@@ -22,12 +22,12 @@ namespace rnmbake {
 struct DispatchRules {
   PassCache cache;                 // what was baked before is not baked again
   std::optional<double> deadline;  // on base/clock: the best that fits
-  bool halves = true;              // else the samples are one sequence, and no error is known
   /// Bakes these passes alone, which stay in the cache, and takes no notice of targets that lie there.
   std::vector<MissingBatch> shares = {};
   /// Where it is there, nothing is launched. A target that the cache does not hold all passes of, of its
   /// batch or of the pieces into which that was split, is given up for the reason that this says.
   std::function<std::string(std::size_t target)> why_missing = {};
+  bool halves = true;  // else the samples are one sequence, and no error is known
 };
 
 /// Runs the passes of all batches of the plan, but for what the cache holds. A failed batch is tried again

@@ -1,7 +1,7 @@
-// cli/render_flags.h - the flags of `rnmbake render`.
+// cli/flags/render_flags.h - the flags of `rnmbake render`.
 #pragma once
 
-#include "cli/settings_flags.h"
+#include "cli/flags/settings_flags.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "cli/settings_flags.h"
+#include "cli/flags/settings_flags.h"
 
 #include "base/error.h"
 #include "config/document.h"

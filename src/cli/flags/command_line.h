@@ -1,4 +1,4 @@
-// cli/command_line.h - a command line that repeats a run.
+// cli/flags/command_line.h - a command line that repeats a run.
 #pragma once
 
 #include "config/resolve.h"

@@ -1,4 +1,4 @@
-#include "cli/help_format.h"
+#include "cli/flags/help_format.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,4 +1,4 @@
-// cli/settings_flags.h - the settings of config/settings.h as flags of one command.
+// cli/flags/settings_flags.h - the settings of config/settings.h as flags of one command.
 #pragma once
 
 #include "config/resolve.h"

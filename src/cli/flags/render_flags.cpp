@@ -1,8 +1,8 @@
-#include "cli/render_flags.h"
+#include "cli/flags/render_flags.h"
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cli/command_line.h"
+#include "cli/flags/command_line.h"
 #include "probes/volume_sampler.h"
 
 #include <algorithm>

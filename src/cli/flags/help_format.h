@@ -1,4 +1,4 @@
-// cli/help_format.h - layout of --help: two columns, wrapped, --[no-]flag for switches.
+// cli/flags/help_format.h - layout of --help: two columns, wrapped, --[no-]flag for switches.
 #pragma once
 
 #include <string>
