@@ -211,7 +211,7 @@ TEST(VolumeFile, RefusesWhatIsDamaged) {
   };
   with("\"probes\": 48", "\"probes\": 47");
   expect_refused(folder.path(), "probes.json: 'linear' has 47 probes");
-  with("\"linear.exr\"", "\"../linear.exr\"");
+  with(R"("file": "linear.exr")", R"("file": "../linear.exr")");
   expect_refused(folder.path(), "no plain file name");
   write_atomically(json, text.substr(0, text.size() / 2));
   expect_refused(folder.path(), "probes.json");
