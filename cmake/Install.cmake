@@ -1,5 +1,6 @@
 # What `cmake --install` puts where, and the Debian package that `cpack -G DEB` makes of it (docs/install.md).
 include(CMakePackageConfigHelpers)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # a package needs no tests and benchmarks
 
 install(TARGETS rnmbake RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS rnmbake-engine RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/rnmbake)
@@ -46,11 +47,10 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/package/debian.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}
- rnmbake bakes the light of a scene into the three maps of the Half-Life 2
- basis (radiosity normal maps), from which an engine lights normal-mapped
- surfaces, and into light probes. Blender's Cycles does the tracing,
- headless; a path tracer of its own tells how exact the result is.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "rnmbake bakes the light of a scene into the three maps of the Half-Life 2
+basis (radiosity normal maps), from which an engine lights normal-mapped
+surfaces, and into light probes. Blender's Cycles does the tracing,
+headless; a path tracer of its own tells how exact the result is.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)

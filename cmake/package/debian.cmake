@@ -12,5 +12,12 @@ foreach(PAGE IN LISTS PAGES)
   compress("${PAGE}")
 endforeach()
 file(RENAME "${DOC}/LICENSE" "${DOC}/copyright")
-file(RENAME "${DOC}/CHANGELOG.md" "${DOC}/changelog")
+# The user's own is CHANGELOG.md; this one is of the package. SOURCE_DATE_EPOCH sets its date.
+string(TIMESTAMP DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE "${DOC}/changelog" "rnmbake (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
+
+  * What is new stands in CHANGELOG.md.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${DATE}
+")
 compress("${DOC}/changelog")

@@ -28,7 +28,7 @@ package() {
   # shellcheck disable=SC1091
   suite=$(source /etc/os-release && echo "${VERSION_CODENAME:-}")
   require "${build_packages[@]}" dpkg-dev lintian
-  build release
+  build release --target rnmbake shell_files
   rm -rf "$folder"
   (cd build/release && cpack -G DEB -B "$folder") >"$(log cpack)" 2>&1 || die "no package, see $(log cpack)"
   file=$(echo "$folder"/*.deb)
