@@ -13,8 +13,11 @@ def choose(task):
         _show("scene", _named(request, "scene", scene, [one for one in bpy.data.scenes if not one.library]))
     if layer:
         _show("view_layer", _named(request, "view layer", layer, bpy.context.scene.view_layers))
-    if frame >= 0:
-        bpy.context.scene.frame_set(frame)
+    if scene or layer or frame >= 0:
+        # Animation moves lamps, of which a bake takes what they are in the file's data, only where the view layer was
+        # evaluated before.
+        bpy.context.evaluated_depsgraph_get()
+        bpy.context.scene.frame_set(frame if frame >= 0 else bpy.context.scene.frame_current)
 
 
 def _named(request, what, name, there):
