@@ -1,9 +1,9 @@
 """Kills bakes at random moments, goes on with them, and holds the result against that of a run that nobody disturbed.
 
-    python3 bench/reliability.py BINARY ROUNDS [--page docs/reliability.md]
+    python3 bench/reliability.py BINARY ROUNDS [--page FILE]
 
 Each round kills rnmbake or its Blender (in turns, SIGKILL) at a moment drawn evenly over the time of a whole run, then runs the
-same command again until it succeeds. Every round is added to bench/results/reliability.json, so that rounds of several calls count
+same command again until it succeeds. Every round is added to the file RESULTS, so that rounds of several calls count
 together.
 """
 import hashlib
