@@ -92,8 +92,8 @@ add_test(NAME saved_scene.check
           $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)
 set_tests_properties(saved_scene.check PROPERTIES LABELS blender TIMEOUT 1200)
 
-# A bake as tasks for many machines, and on a Slurm of two nodes where there is one.
-foreach(CLASS Tasks Slurm)
+# A bake as tasks for many machines. (On a Slurm of two nodes: farm/farm_check.py Slurm, by hand.)
+foreach(CLASS Tasks)
   add_test(NAME farm.${CLASS}
     COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
             $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/farm/farm_check.py -v ${CLASS})
