@@ -74,7 +74,7 @@ class Failing(BadInput):
         self.assert_one_error(ended, "offender", *words)
         status = {entry["object"]: entry["status"] for entry in self.manifest()["objects"]}
         self.assertEqual(status, {"floor": "baked", "offender": "failed", "wall": "baked"})
-        self.assertEqual(files_in(self.out), ["floor.exr", "manifest.json", "wall.exr"])
+        self.assertEqual(files_in(self.out), ["floor.exr", "manifest.json", "timings.json", "wall.exr"])
         for name in ("floor.exr", "wall.exr"):
             self.assert_whole(name)
         self.assert_tidy()
@@ -170,7 +170,7 @@ class Stopped(BadInput):
         ended = self.bake("good.blend")
         self.assertEqual(ended.code, OK, ended.err)
         self.assertEqual([name for name in files_in(self.out) if not name.startswith(".")],
-                         ["floor.exr", "manifest.json", "offender.exr", "wall.exr"])
+                         ["floor.exr", "manifest.json", "offender.exr", "timings.json", "wall.exr"])
 
     def test_interrupt(self):
         running = self.start_baking()

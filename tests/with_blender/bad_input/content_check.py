@@ -7,6 +7,9 @@ from bad_input import BadInput, files_in
 from harness import INVALID_INPUT, OK, USAGE, blender
 
 
+RECORDS = ["manifest.json", "timings.json", ".rnmbake-run.json", ".rnmbake-scene.json"]
+
+
 class Content(BadInput):
     def test_no_meshes(self):
         self.assert_refused(self.bake("no_meshes.blend"), INVALID_INPUT, "no_meshes.blend")
@@ -85,7 +88,7 @@ class Names(BadInput):
             self.assertNotIn(name[0], ".-")
             self.assertLessEqual(len(name.encode()), 200)
         self.assertEqual(sorted(files_in(self.folder)),
-                         sorted(f"out/{name}" for name in files + ["manifest.json"]))
+                         sorted(f"out/{name}" for name in files + RECORDS))
 
 
 class Scripts(BadInput):
