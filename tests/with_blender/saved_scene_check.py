@@ -139,8 +139,8 @@ class SavedScene(unittest.TestCase):
         for key in second.keys() - again:
             earlier = second[key].pop("earlier")
             self.assertEqual(second[key], first[key])
-            self.assertEqual(earlier, {name: self.first[name] for name in ("rnmbake", "blender", "recipe", "materials", "bounces")}
-                             | {"footprint": self.first["conventions"]["footprint"]})
+            of_run = {name: self.first[name] for name in ("rnmbake", "blender", "engine", "recipe", "materials", "bounces")}
+            self.assertEqual(earlier, of_run | {"footprint": self.first["conventions"]["footprint"]})
             self.assertTrue((self.maps / second[key]["files"][0]).is_file())
         self.assertEqual(self.second["skipped"], [])
 
