@@ -1,6 +1,15 @@
 # Suites that are driven by Python.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
+# rnm_check(NAME LABELS TIMEOUT FILE [ENV variables...] [ARGS words...]) - a Python suite that runs the program.
+function(rnm_check NAME LABELS TIMEOUT FILE)
+  cmake_parse_arguments(CHECK "" "" "ENV;ARGS" ${ARGN})
+  add_test(NAME ${NAME}
+    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake> ${CHECK_ENV}
+            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/${FILE}_check.py -v ${CHECK_ARGS})
+  set_tests_properties(${NAME} PROPERTIES LABELS "${LABELS}" TIMEOUT ${TIMEOUT})
+endfunction()
+
 # What `./dev lint` says without a compiler. A high cost starts them, and docs.*, before all others.
 foreach(CHECK format rooms python)
   add_test(NAME style.${CHECK} COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/style.sh ${CHECK})
@@ -48,11 +57,7 @@ foreach(CHECK files.Scenes files.Folders content.Content content.Names content.S
   string(REPLACE "." ";" PARTS ${CHECK})
   list(GET PARTS 0 FILE)
   list(GET PARTS 1 CLASS)
-  add_test(NAME bad_input.${CLASS}
-    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/bad_input/${FILE}_check.py
-            -v ${CLASS})
-  set_tests_properties(bad_input.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
+  rnm_check(bad_input.${CLASS} blender 1200 with_blender/bad_input/${FILE} ARGS ${CLASS})
 endforeach()
 
 # The scenes that ./dev scenes built, against what their README promises.
@@ -65,40 +70,20 @@ if(RNMBAKE_TEST_BLENDER)
 endif()
 
 # The scene that is like other people's files, through every command.
-add_test(NAME attic.check
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/attic_check.py -v)
-set_tests_properties(attic.check PROPERTIES LABELS blender TIMEOUT 1200)
+rnm_check(attic.check blender 1200 with_blender/attic)
 
-add_test(NAME manifest.schema
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/manifest_check.py -v)
-set_tests_properties(manifest.schema PROPERTIES LABELS blender TIMEOUT 1200)
+rnm_check(manifest.schema blender 1200 with_blender/manifest)
 
-foreach(CLASS Changes Killed)
-  add_test(NAME reuse.${CLASS}
-    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/reuse_check.py -v ${CLASS})
-  set_tests_properties(reuse.${CLASS} PROPERTIES LABELS blender TIMEOUT 1200)
+foreach(CLASS Changes Killed Traced)
+  rnm_check(reuse.${CLASS} blender 1200 with_blender/reuse ARGS ${CLASS})
 endforeach()
 
-add_test(NAME outputs.check
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/outputs_check.py -v)
-set_tests_properties(outputs.check PROPERTIES LABELS blender TIMEOUT 1200)
+rnm_check(outputs.check blender 1200 with_blender/outputs)
 
-add_test(NAME saved_scene.check
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/saved_scene_check.py -v)
-set_tests_properties(saved_scene.check PROPERTIES LABELS blender TIMEOUT 1200)
+rnm_check(saved_scene.check blender 1200 with_blender/saved_scene)
 
 # A bake as tasks for many machines. (On a Slurm of two nodes: farm/farm_check.py Slurm, by hand.)
-foreach(CLASS Tasks)
-  add_test(NAME farm.${CLASS}
-    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/farm/farm_check.py -v ${CLASS})
-  set_tests_properties(farm.${CLASS} PROPERTIES LABELS "blender;farm" TIMEOUT 2400 SKIP_REGULAR_EXPRESSION "SKIPPED: no Slurm")
-endforeach()
+rnm_check(farm.Tasks "blender;farm" 2400 farm/farm ARGS Tasks)
 
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
@@ -109,10 +94,7 @@ foreach(CHECK page schema)
             $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/report/${CHECK}_check.py -v)
   set_tests_properties(report.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
 endforeach()
-add_test(NAME report.study
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/report/study_check.py -v)
-set_tests_properties(report.study PROPERTIES LABELS unit TIMEOUT 300)
+rnm_check(report.study unit 300 report/study)
 
 # Files of light probes for engines, by readers that share nothing with what writes them.
 add_executable(sample_formats ${CMAKE_CURRENT_SOURCE_DIR}/probes/formats/sample_formats.cpp)
@@ -126,21 +108,13 @@ foreach(CHECK formats more_formats threejs)
 endforeach()
 
 # Scenes of strangers, whose scripts try to get out of --sandbox.
-add_test(NAME sandbox.check
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/with_blender/sandbox/sandbox_check.py -v)
-set_tests_properties(sandbox.check PROPERTIES LABELS blender TIMEOUT 1200 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+rnm_check(sandbox.check blender 1200 with_blender/sandbox/sandbox)
+set_tests_properties(sandbox.check PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
 # Completion and manual pages, by real shells, man and mandoc.
 foreach(CHECK completion man)
-  add_test(NAME shell.${CHECK}
-    COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake>
-            $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/shell/${CHECK}_check.py -v)
-  set_tests_properties(shell.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
+  rnm_check(shell.${CHECK} unit 300 shell/${CHECK})
 endforeach()
 
 # Lightmaps in builds of CMake, Ninja and make.
-add_test(NAME builds.check
-  COMMAND ${CMAKE_COMMAND} -E env RNMBAKE_BINARY=$<TARGET_FILE:rnmbake> RNMBAKE_BUILD=${CMAKE_BINARY_DIR}
-          $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_SOURCE_DIR}/builds/builds_check.py -v)
-set_tests_properties(builds.check PROPERTIES LABELS blender TIMEOUT 1200)
+rnm_check(builds.check blender 1200 builds/builds ENV RNMBAKE_BUILD=${CMAKE_BINARY_DIR})

@@ -165,7 +165,7 @@ class Traced(Reuse):
 
     def test_an_exported_scene_needs_no_blender(self):
         exported = self.folder / "room.rnmscene"
-        done = subprocess.run([binary(), "export", str(self.scene), "-o", str(exported)], env=environment(),
+        done = subprocess.run([binary(), "export", str(self.scene), "-o", str(exported), *FEW[:2]], env=environment(),
                               stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
         self.assertEqual(done.returncode, OK, done.stderr)
         self.bake(*self.EMBREE)
