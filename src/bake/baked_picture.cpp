@@ -16,6 +16,14 @@ const FloatImage& any_half(const BakedPicture& picture) {
   return picture.samples[0] > 0 ? picture.halves[0] : picture.halves[1];
 }
 
+/// The mean of two pictures' colours, of which `other` has that share.
+void blend(FloatImage& picture, const FloatImage& other, double share) {
+  auto& values = picture.data();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % 4 != 3) values[i] = float(double(values[i]) * (1 - share) + double(other.data()[i]) * share);
+  }
+}
+
 template <typename T>
 void put(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -98,10 +106,7 @@ void BakedPicture::add(int half, FloatImage pass, int count) {
   if (samples[h] == 0) {
     halves[h] = std::move(pass);
   } else {
-    auto& sums = halves[h].data();
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      if (i % 4 != 3) sums[i] = float(double(sums[i]) * (1 - share) + double(pass.data()[i]) * share);
-    }
+    blend(halves[h], pass, share);
   }
   samples[h] += count;
 }
@@ -109,12 +114,7 @@ void BakedPicture::add(int half, FloatImage pass, int count) {
 FloatImage BakedPicture::mean() const {
   FloatImage result = any_half(*this);
   if (!has_error()) return result;
-  const double share = double(samples[1]) / all_samples();
-  const auto& other = halves[1].data();
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    if (i % 4 != 3)
-      result.data()[i] = float(double(result.data()[i]) * (1 - share) + double(other[i]) * share);
-  }
+  blend(result, halves[1], double(samples[1]) / all_samples());
   return result;
 }
 

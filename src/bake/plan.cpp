@@ -95,14 +95,17 @@ BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings) {
                                                              : BakingSettings::Dispatch::object;
 }
 
+std::int64_t texels_of(const Plan& plan, const std::vector<std::size_t>& rects) {
+  std::int64_t texels = 0;
+  for (const std::size_t rect : rects)
+    texels += std::int64_t(plan.rects[rect].size.width) * plan.rects[rect].size.height;
+  return texels;
+}
+
 std::vector<Batch> cut(const Batch& batch, const Plan& plan, std::int64_t max_pixels) {
   std::map<std::size_t, std::int64_t> pixels;  // of each target
-  for (const std::size_t task : batch.tasks) {
-    for (const std::size_t rect : plan.tasks[task].rects) {
-      const RectSize size = plan.rects[rect].size;
-      pixels[plan.tasks[task].target] += std::int64_t(size.width) * size.height;
-    }
-  }
+  for (const std::size_t task : batch.tasks)
+    pixels[plan.tasks[task].target] += texels_of(plan, plan.tasks[task].rects);
   std::map<std::size_t, std::size_t> place;  // target -> batch
   std::vector<Batch> batches;
   std::int64_t filled = 0;

@@ -94,6 +94,9 @@ void group_tasks(Plan& plan, BakingSettings::Dispatch mode);
 /// Resolves `automatic`: joined for receivers, a launch for each object otherwise.
 [[nodiscard]] BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings);
 
+/// Texels of some of the plan's rectangles, which the time and the memory of a bake are proportional to.
+[[nodiscard]] std::int64_t texels_of(const Plan& plan, const std::vector<std::size_t>& rects);
+
 /// Batches of whole targets, in their order, none of which has more pixels than `max_pixels`, unless a single
 /// target has.
 [[nodiscard]] std::vector<Batch> cut(const Batch& batch, const Plan& plan, std::int64_t max_pixels);

@@ -36,9 +36,8 @@ BatchWork::BatchWork(const Plan& plan, Batch batch, BakeRequest request, fs::pat
   wanted_ = cycles.samples;
   noise_ = cycles.noise;
   if (cache_.is_on()) key_ = cache_.key_of(request_, folder_);
+  texels_ = double(texels_of(plan_, layout().rects));
   for (const std::size_t rect : layout().rects) {
-    const RectSize size = plan_.rects[rect].size;
-    texels_ += double(size.width) * size.height;
     const auto found = earlier.find(rect);
     pictures_.push_back(found != earlier.end() ? found->second : BakedPicture{});
   }
@@ -87,33 +86,31 @@ std::optional<std::vector<BakedPicture>> BatchWork::find_kept() const {
   return cache_.find(key_of(next_), pictures_.size());
 }
 
-bool BatchWork::take_finished(bool keep_files) {
-  bool is_new = false;
+void BatchWork::take_finished(bool keep_files) {
   while (!is_complete()) {
+    const std::size_t before = next_, planned = passes_.size();
     const std::vector<std::string> files = pass_files(next_, layout());
-    if (!fs::exists(folder_ / files.back())) {
-      const std::size_t before = next_, planned = passes_.size();
-      if (cache_.has(key_of(next_))) take_kept();  // the launch was told to leave it out
-      if (next_ == before) return is_new;
-      if (by_rounds() && next_ >= planned) answer(planned);
-      is_new = true;
-      continue;
+    if (fs::exists(folder_ / files.back())) {
+      take_baked();
+      for (const std::string& file : files) {
+        if (!keep_files) fs::remove(folder_ / file);
+      }
+    } else if (cache_.has(key_of(next_))) {
+      take_kept();  // the launch was told to leave it out
     }
-    std::vector<FloatImage> rects = read_rects(layout(), plan_, folder_, next_);
-    const SamplePass pass = passes_[next_];
-    std::vector<BakedPicture> pictures(rects.size());
-    for (std::size_t i = 0; i < rects.size(); ++i)
-      pictures[i].add(pass.half, std::move(rects[i]), pass.count);
-    cache_.keep(key_of(next_), pictures);
-    if (!keep_files) {
-      for (const std::string& file : files) fs::remove(folder_ / file);
-    }
-    const std::size_t planned = passes_.size();
-    add(next_, std::move(pictures));
+    if (next_ == before) return;
     if (by_rounds() && next_ >= planned) answer(planned);
-    is_new = true;
   }
-  return is_new;
+}
+
+/// The next pass, whose files are there.
+void BatchWork::take_baked() {
+  std::vector<FloatImage> rects = read_rects(layout(), plan_, folder_, next_);
+  const SamplePass pass = passes_[next_];
+  std::vector<BakedPicture> pictures(rects.size());
+  for (std::size_t i = 0; i < rects.size(); ++i) pictures[i].add(pass.half, std::move(rects[i]), pass.count);
+  cache_.keep(key_of(next_), pictures);
+  add(next_, std::move(pictures));
 }
 
 EarlierPictures BatchWork::so_far() const {

@@ -55,9 +55,9 @@ class BatchWork {
   void take_kept();
 
   /// Takes in what a launch has finished so far: reads the files of passes, keeps them in the cache. Answers
-  /// a launch that waits. Returns whether something was new. Throws Error(tasks_failed) for a picture that is
+  /// a launch that waits. Throws Error(tasks_failed) for a picture that is
   /// not whole.
-  bool take_finished(bool keep_files);
+  void take_finished(bool keep_files);
 
   [[nodiscard]] bool is_complete() const { return next_ == passes_.size(); }
   /// Passes that are there, and the samples that one of them takes.
@@ -98,6 +98,7 @@ class BatchWork {
   [[nodiscard]] std::map<std::size_t, double> noise_by_target() const;
   [[nodiscard]] std::optional<std::vector<BakedPicture>> find_kept() const;
   void add(std::size_t pass, std::vector<BakedPicture> pictures);
+  void take_baked();
   void answer(std::size_t number) const;
 
   const Plan& plan_;

@@ -125,8 +125,7 @@ class Dispatcher {
     double work = 0;
     for (const std::size_t task : missing.batch.tasks) {
       const int samples = plan_.tasks[task].cycles.samples - missing.done[0] - missing.done[1];
-      for (const std::size_t rect : plan_.tasks[task].rects)
-        work += double(plan_.rects[rect].size.width) * plan_.rects[rect].size.height * samples;
+      work += double(texels_of(plan_, plan_.tasks[task].rects)) * samples;
     }
     return work;
   }

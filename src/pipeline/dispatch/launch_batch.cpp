@@ -10,7 +10,7 @@ namespace {
 /// Pictures that are not whole count as missing: a smaller launch may succeed.
 void take_finished(BatchWork& work, bool keep_files) {
   try {
-    (void)work.take_finished(keep_files);
+    work.take_finished(keep_files);
   } catch (const Error& error) {
     if (error.code() != ExitCode::tasks_failed) throw;
     log::debug("{}", error.what());
@@ -49,12 +49,10 @@ LaunchFailure no_picture(const BatchWork& work, const Plan& plan) {
 }
 
 PassCost cost_of(const Plan& plan, const BatchLayout& layout, std::int64_t scene_triangles) {
-  std::int64_t texels = 0, corners = 0;
-  for (const std::size_t rect : layout.rects) {
-    texels += std::int64_t(plan.rects[rect].size.width) * plan.rects[rect].size.height;
+  std::int64_t corners = 0;
+  for (const std::size_t rect : layout.rects)
     corners += static_cast<std::int64_t>(plan.rects[rect].pass.corners.size());
-  }
-  return model_cost(texels, corners / 3, scene_triangles);
+  return model_cost(texels_of(plan, layout.rects), corners / 3, scene_triangles);
 }
 
 }  // namespace rnmbake

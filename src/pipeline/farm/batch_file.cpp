@@ -1,5 +1,6 @@
 #include "pipeline/farm/batch_file.h"
 
+#include "bake/request.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json.h"
@@ -46,11 +47,6 @@ class ValueFile {
   std::string bytes_;
   std::size_t at_ = 0;
 };
-
-json cycles_json(const CyclesSettings& cycles) {
-  return {{"samples", cycles.samples}, {"bounces", cycles.bounces}, {"seed", cycles.seed},
-          {"clamp", cycles.clamp},     {"device", cycles.device},   {"lamps", cycles.lamps}};
-}
 
 CyclesSettings cycles_of(const json& text) {
   CyclesSettings cycles;
@@ -146,7 +142,7 @@ void write_batch(const Plan& plan, const Batch& batch, const fs::path& folder) {
     tasks.push_back(
         {{"target", targets.at(task.target)}, {"name", task.name}, {"basis", task.basis}, {"rects", own}});
   }
-  json text{{"cycles", cycles_json(plan.tasks[batch.tasks.front()].cycles)},
+  json text{{"cycles", to_json(plan.tasks[batch.tasks.front()].cycles)},
             {"absent", plan.absent},
             {"glow_heights", nullptr},
             {"targets", targets_json},

@@ -50,10 +50,7 @@ fs::path place_scene(const BlenderSession& session, const BlendPath& shown, cons
 
 /// Bytes that all passes of a batch take in the cache, at most.
 std::int64_t cache_bytes(const BatchWork& work, const Plan& plan) {
-  std::int64_t texels = 0;
-  for (const std::size_t rect : work.layout().rects)
-    texels += std::int64_t(plan.rects[rect].size.width) * plan.rects[rect].size.height;
-  return texels * 16 * std::int64_t(work.passes().size());
+  return texels_of(plan, work.layout().rects) * 16 * std::int64_t(work.passes().size());
 }
 
 void require_room(const BakeSettings& settings, std::int64_t bytes) {
@@ -178,13 +175,11 @@ void prepare_plan_folder(const fs::path& folder) {
 FarmPlan make_farm_plan(BlenderSession& session, const BakeSubject& subject, Store& store,
                         const FarmOptions& options) {
   const BlenderInfo& blender = session.blender().info();
-  const fs::path& scripts = session.settings().run.scripts;
   FarmPlan farm;
   farm.folder = fs::absolute(options.folder).lexically_normal();
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   farm.id = hash128_hex(fmt::format("{} {}", owner_word(), now));
-  farm.blender = {blender.version_text, blender.build,
-                  scripts_hash(scripts.empty() ? std::nullopt : std::optional(scripts))};
+  farm.blender = {blender.version_text, blender.build, scripts_hash(session.settings().run.scripts)};
   farm.scene_key = scene_key(session, subject.survey);
   farm.scene_triangles = scene_triangles(subject.survey);
   farm.settings = launch_settings(session.config());
