@@ -14,12 +14,6 @@ std::string text_of(const SettingValue& value) {
   return fmt::format("{}", std::get<double>(value));
 }
 
-std::string flag_of(const SettingOverride& given) {
-  if (const auto* on = std::get_if<bool>(&given.value))
-    return *on ? given.setting->flag() : fmt::format("--no-{}", given.setting->flag().substr(2));
-  return fmt::format("{} {}", given.setting->flag(), shell_word(text_of(given.value)));
-}
-
 /// Whether the user gave the setting by its flag or variable; a setting that another one turned off has the
 /// other's flag as its origin.
 bool was_typed(const SettingOverride& given) {
@@ -48,13 +42,20 @@ std::string shell_word(const std::string& word) {
   return out + "'";
 }
 
+std::vector<std::string> flag_words(const SettingOverride& given) {
+  const std::string flag = given.setting->flag();
+  if (const auto* on = std::get_if<bool>(&given.value)) return {*on ? flag : "--no-" + flag.substr(2)};
+  return {flag, text_of(given.value)};
+}
+
 std::string command_line(const std::string& command, const ResolvedConfig& config) {
   const std::string project = project_of(config);
   std::string line = fmt::format("rnmbake {} {}", command,
                                  shell_word(project.empty() ? config.globals.scene.file.string() : project));
   for (const SettingOverride& given : config.values()) {
     const bool is_scene = given.setting->key == "file" && project.empty();
-    if (was_typed(given) && !is_scene) line += fmt::format(" {}", flag_of(given));
+    if (!was_typed(given) || is_scene) continue;
+    for (const std::string& word : flag_words(given)) line += " " + shell_word(word);
   }
   return line;
 }

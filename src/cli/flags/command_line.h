@@ -4,11 +4,15 @@
 #include "config/resolve.h"
 
 #include <string>
+#include <vector>
 
 namespace rnmbake {
 
 /// Quotes a word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
+
+/// The flag that gives a setting its value, and the value as its next word where it takes one.
+[[nodiscard]] std::vector<std::string> flag_words(const SettingOverride& given);
 
 /// The project file that settings came from; "": none.
 [[nodiscard]] std::string project_of(const ResolvedConfig& config);
