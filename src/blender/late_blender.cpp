@@ -35,15 +35,18 @@ LaunchTrust::Sandboxed sandbox_of(const BakeSettings& settings) {
 
 }  // namespace
 
+std::filesystem::path blender_of(const BakeSettings& settings) {
+  const std::string& wanted = settings.run.blender;
+  return find_blender(wanted.empty() ? std::nullopt : std::optional(wanted));
+}
+
 RealBlender& LateBlender::found() const {
   std::call_once(once_, [this] {
     RealBlender::Options options;
     options.trust.allow_scripts = settings_.scene.allow_scripts;
     if (settings_.run.sandbox) options.trust.sandbox = sandbox_of(settings_);
     if (!settings_.run.scripts.empty()) options.scripts = settings_.run.scripts;
-    const std::string& wanted = settings_.run.blender;
-    const auto executable = find_blender(wanted.empty() ? std::nullopt : std::optional(wanted));
-    found_ = std::make_unique<RealBlender>(probe_version(executable), options);
+    found_ = std::make_unique<RealBlender>(probe_version(blender_of(settings_)), options);
   });
   return *found_;
 }

@@ -4,11 +4,15 @@
 #include "blender/real_blender.h"
 #include "config/bake_settings.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 
 namespace rnmbake {
+
+/// Where it is, which takes no launch. Throws Error(environment).
+[[nodiscard]] std::filesystem::path blender_of(const BakeSettings& settings);
 
 /// Thread-safe. Everything throws Error(environment) where there is no usable Blender.
 class LateBlender : public Blender {

@@ -9,14 +9,14 @@ namespace rnmbake {
 
 namespace fs = std::filesystem;
 
-std::string scripts_hash(const std::optional<fs::path>& instead) {
+std::string scripts_hash(const fs::path& instead) {
   std::map<std::string, std::string> texts;  // by name, since folders are listed in any order
-  if (!instead) {
+  if (instead.empty()) {
     for (const auto& [name, text] : embedded_scripts()) texts[name] = text;
   } else {
-    for (const auto& entry : fs::recursive_directory_iterator(*instead)) {
+    for (const auto& entry : fs::recursive_directory_iterator(instead)) {
       if (entry.path().extension() == ".py")
-        texts[fs::relative(entry.path(), *instead).string()] = read_text(entry.path());
+        texts[fs::relative(entry.path(), instead).string()] = read_text(entry.path());
     }
   }
   std::string all;

@@ -16,8 +16,8 @@ namespace rnmbake {
 /// texts.
 const std::vector<std::pair<const char*, const char*>>& embedded_scripts();
 
-/// Hash of what they do: of the embedded ones, or of the .py files below a folder.
-std::string scripts_hash(const std::optional<std::filesystem::path>& instead = {});
+/// Hash of what they do: of the .py files below a folder; "": of the embedded ones.
+std::string scripts_hash(const std::filesystem::path& instead);
 
 /// A folder with all scripts for as long as this object lives.
 class ScriptFolder {

@@ -54,9 +54,9 @@ Reasons changed_settings(const std::string& before, const std::string& now) {
 
 }  // namespace
 
-RunFile look_at(std::string kind, const fs::path& path) {
+RunFile look_at(std::string kind, const fs::path& path, const std::string& hash) {
   RunFile state = glance_at(std::move(kind), path);
-  if (state.size >= 0) state.hash = hash128_hex(read_data(path));
+  if (state.size >= 0) state.hash = hash.empty() ? file_hash128_hex(path) : hash;
   return state;
 }
 

@@ -18,8 +18,9 @@ struct RunFile {
   std::string hash;        // of its content
 };
 
-/// The file as it is now.
-[[nodiscard]] RunFile look_at(std::string kind, const std::filesystem::path& path);
+/// The file as it is now. `hash`: of its content, where somebody knows it.
+[[nodiscard]] RunFile look_at(std::string kind, const std::filesystem::path& path,
+                              const std::string& hash = "");
 
 struct RunRecord {
   std::string settings;  // all that decide what comes out

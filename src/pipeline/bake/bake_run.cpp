@@ -213,7 +213,8 @@ std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject
   std::vector<BakePreview> all;
   for (const PlannedTarget& target : planned_targets(planned.plan)) {
     const PassCache& cache = subject.rules.cache;
-    const bool is_kept = cache.is_on() && cache.has(cache.key_of(target));
+    const bool is_kept =
+        cache.is_on() && cache.has(PassCache::key_of(cache.key_of(target), target.samples()));
     all.push_back({planned.plan.targets[target.target].key, is_kept, target.samples()});
   }
   return all;

@@ -26,31 +26,40 @@ bool is_part(const HalfSamples& samples, int wanted) {
 }  // namespace
 
 KeptTargets::KeptTargets(const Plan& plan, const PassCache& cache, PictureSink& sink)
-    : plan_(plan), cache_(cache), sink_(sink), targets_(planned_targets(plan)) {}
+    : plan_(plan), cache_(cache), sink_(sink), targets_(planned_targets(plan)) {
+  if (!cache_.is_on()) return;
+  for (const PlannedTarget& target : targets_) keys_.push_back(cache_.key_of(target));
+}
 
 void KeptTargets::hand_over(std::size_t target, TargetPictures pictures) {
   const PlannedTarget& planned = targets_[target];
   sink_.take({planned.tasks}, {planned.rects(), {}}, std::move(pictures));
 }
 
+std::optional<TargetPictures> KeptTargets::find(std::size_t target, int samples) const {
+  if (!cache_.is_on()) return std::nullopt;
+  return cache_.find(PassCache::key_of(keys_[target], samples), targets_[target].rects().size());
+}
+
 std::vector<MissingBatch> KeptTargets::missing(const Cut& cut) {
   PassCache::Missing missing;
   if (cache_.is_on()) {
     KeyMaker run;
-    for (const PlannedTarget& target : targets_) run.add("target", cache_.key_of(target));
+    for (const PlannedTarget& target : targets_)
+      run.add("target", PassCache::key_of(keys_[target.target], target.samples()));
     run_ = run.make("journal");
   }
   std::size_t kept = 0;
   const auto journal = cache_.is_on() ? cache_.find_journal(run_) : std::nullopt;
   for (const PlannedTarget& target : targets_) {
-    std::optional<TargetPictures> found;
-    if (cache_.is_on()) found = cache_.find(cache_.key_of(target), target.rects().size());
-    if (found) {
+    if (auto found = find(target.target, target.samples())) {
       ++kept;
       hand_over(target.target, std::move(*found));
       continue;
     }
-    const auto part = journal ? std::nullopt : cache_.find_part(target);
+    const auto part = journal || !cache_.is_on()
+                          ? std::nullopt
+                          : cache_.find_part(keys_[target.target], target.samples(), target.rects().size());
     const auto samples = part ? samples_of(*part) : std::nullopt;
     missing[target.target] = samples && is_part(*samples, target.samples()) ? *samples : HalfSamples{0, 0};
   }
@@ -83,7 +92,7 @@ EarlierPictures KeptTargets::earlier(const MissingBatch& batch) const {
   for (const std::size_t task : batch.batch.tasks) {
     const PlannedTarget& target = targets_[plan_.tasks[task].target];
     if (known.contains(target.target)) continue;
-    auto pictures = cache_.find_samples(target, batch.done[0] + batch.done[1]);
+    auto pictures = find(target.target, batch.done[0] + batch.done[1]);
     if (!pictures || samples_of(*pictures) != batch.done) return {};  // from the beginning, all of them alike
     known[target.target] = std::move(*pictures);
   }
@@ -118,7 +127,7 @@ void KeptTargets::keep(const BatchLayout& layout, const std::vector<BakedPicture
   }
   for (const auto& [target, all] : complete) {
     const int samples = in_time ? all.front().all_samples() : targets_[target].samples();
-    cache_.keep_target(targets_[target], all, samples);
+    cache_.keep_target(keys_[target], all, samples);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace rnmbake {
@@ -44,11 +45,13 @@ class KeptTargets {
 
  private:
   void hand_over(std::size_t target, TargetPictures pictures);
+  [[nodiscard]] std::optional<TargetPictures> find(std::size_t target, int samples) const;
 
   const Plan& plan_;
   const PassCache& cache_;
   PictureSink& sink_;
   std::vector<PlannedTarget> targets_;
+  std::vector<ResultKey> keys_;  // [targets]; none without a cache
   ResultKey run_;
   std::mutex mutex_;
   std::map<std::size_t, std::map<std::size_t, BakedPicture>> parts_;  // target -> rectangle -> picture

@@ -2,7 +2,6 @@
 
 #include "base/hash.h"
 #include "base/json.h"
-#include "base/read_file.h"
 
 #include <algorithm>
 #include <sstream>
@@ -30,10 +29,6 @@ void add_rect(KeyMaker& key, const AtlasRect& rect) {
   key.add("x", std::int64_t{rect.x}).add("y", std::int64_t{rect.y});
   key.add("width", std::int64_t{rect.size.width}).add("height", std::int64_t{rect.size.height});
   key.add("corners", hash_of(rect.pass.corners));
-}
-
-ResultKey with_samples(const ResultKey& key, int samples) {
-  return KeyMaker().add("target", key).add("samples", std::int64_t{samples}).make("target");
 }
 
 ResultKey list_of_samples(const ResultKey& key) {
@@ -68,7 +63,7 @@ ResultKey PassCache::key_of(const BakeRequest& request, const std::filesystem::p
   settings["cycles"].erase("samples");
   key.add("request", settings.dump());
   const auto add_file = [&](const json& name) {
-    key.add("array", hash128_hex(read_data(folder / name.get<std::string>())));
+    key.add("array", file_hash128_hex(folder / name.get<std::string>()));
   };
   for (const json& atlas : settings.value("atlases", json::array())) add_file(atlas.at("arrays"));
   if (settings.contains("guards") && settings["guards"]["fences"]["count"] != 0)
@@ -90,7 +85,7 @@ ResultKey PassCache::key_of(const ResultKey& request, const SamplePass& pass, in
   return key.make("pass");
 }
 
-ResultKey PassCache::key_without_samples(const PlannedTarget& target) const {
+ResultKey PassCache::key_of(const PlannedTarget& target) const {
   const Plan& plan = target.plan;
   const PlanTarget& of = plan.targets[target.target];
   KeyMaker key;
@@ -108,8 +103,8 @@ ResultKey PassCache::key_without_samples(const PlannedTarget& target) const {
   return key.make("target");
 }
 
-ResultKey PassCache::key_of(const PlannedTarget& target) const {
-  return with_samples(key_without_samples(target), target.samples());
+ResultKey PassCache::key_of(const ResultKey& target, int samples) {
+  return KeyMaker().add("target", target).add("samples", std::int64_t{samples}).make("target");
 }
 
 std::optional<std::vector<BakedPicture>> PassCache::find(const ResultKey& key, std::size_t pictures) const {
@@ -135,33 +130,28 @@ std::vector<int> PassCache::samples_kept(const ResultKey& key) const {
   return kept;
 }
 
-std::optional<TargetPictures> PassCache::find_part(const PlannedTarget& target) const {
+std::optional<TargetPictures> PassCache::find_part(const ResultKey& target, int wanted,
+                                                   std::size_t pictures) const {
   if (!is_on()) return std::nullopt;
-  const ResultKey key = key_without_samples(target);
-  std::vector<int> kept = samples_kept(key);
+  std::vector<int> kept = samples_kept(target);
   std::ranges::sort(kept, std::greater());
   for (const int samples : kept) {
-    if (samples >= target.samples()) continue;
-    if (auto found = find(with_samples(key, samples), target.rects().size())) return found;
+    if (samples >= wanted) continue;
+    if (auto found = find(key_of(target, samples), pictures)) return found;
   }
   return std::nullopt;
 }
 
-std::optional<TargetPictures> PassCache::find_samples(const PlannedTarget& target, int samples) const {
-  return find(with_samples(key_without_samples(target), samples), target.rects().size());
-}
-
-void PassCache::keep_target(const PlannedTarget& target, const TargetPictures& pictures, int samples) const {
+void PassCache::keep_target(const ResultKey& target, const TargetPictures& pictures, int samples) const {
   if (!is_on()) return;
-  const ResultKey key = key_without_samples(target);
-  keep(with_samples(key, samples), pictures);
-  std::vector<int> kept = samples_kept(key);
+  keep(key_of(target, samples), pictures);
+  std::vector<int> kept = samples_kept(target);
   if (std::ranges::find(kept, samples) != kept.end()) return;
   kept.push_back(samples);
   std::string list;
   for (const int one : kept) list += std::to_string(one) + " ";
-  store_->remove(list_of_samples(key));
-  store_->put(list_of_samples(key), list);
+  store_->remove(list_of_samples(target));
+  store_->put(list_of_samples(target), list);
 }
 
 std::optional<PassCache::Missing> PassCache::find_journal(const ResultKey& run) const {

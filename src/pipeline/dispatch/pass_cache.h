@@ -46,8 +46,10 @@ class PassCache {
   [[nodiscard]] static ResultKey key_of(const ResultKey& request, const SamplePass& pass, int seed,
                                         const std::vector<std::size_t>& left_out);
 
-  /// Of a target with samples and settings; `samples` and `noise` decide when it is done.
+  /// Of a target however many samples it has: all of its receivers are hashed.
   [[nodiscard]] ResultKey key_of(const PlannedTarget& target) const;
+  /// Of a target with so many samples.
+  [[nodiscard]] static ResultKey key_of(const ResultKey& target, int samples);
 
   [[nodiscard]] std::optional<std::vector<BakedPicture>> find(const ResultKey& key,
                                                               std::size_t pictures) const;
@@ -55,12 +57,11 @@ class PassCache {
   [[nodiscard]] bool has(const ResultKey& key) const { return is_on() && store_->has(key); }
   void forget(const ResultKey& key) const;
 
-  /// The most samples, fewer than it wants, that the target was baked with before.
-  [[nodiscard]] std::optional<TargetPictures> find_part(const PlannedTarget& target) const;
-  /// The target with so many samples.
-  [[nodiscard]] std::optional<TargetPictures> find_samples(const PlannedTarget& target, int samples) const;
+  /// The most samples, fewer than `wanted`, that the target was baked with before.
+  [[nodiscard]] std::optional<TargetPictures> find_part(const ResultKey& target, int wanted,
+                                                        std::size_t pictures) const;
   /// Keeps a target that has so many of its samples, for runs that want as many, or more.
-  void keep_target(const PlannedTarget& target, const TargetPictures& pictures, int samples) const;
+  void keep_target(const ResultKey& target, const TargetPictures& pictures, int samples) const;
 
   /// What a run found missing when it began, so that the next one, should this one be killed, bakes the same
   /// atlases. [targets to bake] -> samples that were there.
@@ -69,7 +70,6 @@ class PassCache {
   void keep_journal(const ResultKey& run, const Missing& missing) const;
 
  private:
-  [[nodiscard]] ResultKey key_without_samples(const PlannedTarget& target) const;
   [[nodiscard]] std::vector<int> samples_kept(const ResultKey& key) const;
 
   Store* store_ = nullptr;

@@ -20,14 +20,13 @@ namespace fs = std::filesystem;
 
 /// Results of another Blender have other keys, and their noise would not be this bake's.
 void require_same_blender(const FarmPlan& plan, const BakeSettings& settings, const BlenderInfo& info) {
-  const fs::path& scripts = settings.run.scripts;
   const FarmBlender& wanted = plan.blender;
   if (info.version_text != wanted.version || info.build != wanted.build)
     fail(ExitCode::environment,
          "{} on {} is Blender {} ({}), and the plan is for {} ({}); name that one with --blender, or submit "
          "with a Blender that all nodes have",
          info.executable.string(), host_name(), info.version_text, info.build, wanted.version, wanted.build);
-  if (scripts_hash(scripts.empty() ? std::nullopt : std::optional(scripts)) != wanted.scripts)
+  if (scripts_hash(settings.run.scripts) != wanted.scripts)
     fail(ExitCode::environment,
          "rnmbake on {} has other scripts than the one that made the plan; install the same everywhere",
          host_name());

@@ -6,7 +6,7 @@
 #include "base/log.h"
 #include "base/read_file.h"
 #include "base/version.h"
-#include "blender/find.h"
+#include "blender/late_blender.h"
 #include "config/value.h"
 
 #include <algorithm>
@@ -49,15 +49,19 @@ std::string settings_text(const ResolvedConfig& config, const std::string& comma
   return text;
 }
 
-/// What the manifest lists.
-std::vector<fs::path> written_files(const fs::path& dir) {
-  std::vector<fs::path> files{dir / "manifest.json"};
+/// What the manifest lists, with the hashes that it has of lightmaps.
+std::vector<RunFile> written_files(const fs::path& dir) {
+  std::vector<RunFile> files{look_at("output", dir / "manifest.json")};
   const json manifest = parse_json(read_text(dir / "manifest.json"), "manifest.json");
   for (const json& object : manifest.at("objects")) {
-    for (const json& file : object.at("files")) files.push_back(dir / file.get<std::string>());
+    const json hashes = object.value("hashes", json::array());  // none where an older program made it
+    for (std::size_t i = 0; i < object.at("files").size(); ++i) {
+      const std::string hash = i < hashes.size() ? hashes[i].get<std::string>() : "";
+      files.push_back(look_at("output", dir / object["files"][i].get<std::string>(), hash));
+    }
   }
   if (const auto saved = manifest.value("scene_with_uvs", std::string()); !saved.empty())
-    files.push_back(dir / saved);
+    files.push_back(look_at("output", dir / saved));
   return files;
 }
 
@@ -72,8 +76,7 @@ json to_json(const SceneDigest& digest) {
 LastRun::LastRun(const ResolvedConfig& config, std::string command, bool needs_blender)
     : config_(config), settings_(settings_text(config, command)) {
   if (needs_blender) {
-    const std::string& wanted = config.globals.run.blender;
-    blender_ = find_blender(wanted.empty() ? std::nullopt : std::optional(wanted));
+    blender_ = blender_of(config.globals);
     settings_ += fmt::format("blender at {}\n", blender_.string());
   }
   if (!fs::exists(record_file())) {
@@ -139,7 +142,8 @@ void LastRun::keep(const SceneSurvey& survey) const {
   for (const InputFile& input : survey.inputs) {
     if (input.path != fs::absolute(settings.scene.file)) add(input.kind.c_str(), input.path);
   }
-  for (const fs::path& file : written_files(settings.output.dir)) add("output", file);
+  for (RunFile& file : written_files(fs::absolute(settings.output.dir)))
+    record.files.push_back(std::move(file));
   write_atomically(digest_file(), to_json(survey.digest).dump() + "\n");
   write_record(record_file(), record);
 }

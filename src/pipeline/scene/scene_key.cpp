@@ -7,12 +7,11 @@ namespace rnmbake {
 ResultKey scene_key(const BlenderSession& session, const SceneSurvey& survey) {
   const BakeSettings& settings = session.settings();
   const BlenderInfo& blender = session.blender().info();
-  const std::filesystem::path& scripts = settings.run.scripts;
   KeyMaker key;
   key.add("content", survey.digest.hash());
   key.add("materials", std::int64_t(settings.scene.materials));
   key.add("blender", blender.version_text).add("build", blender.build);
-  key.add("scripts", scripts_hash(scripts.empty() ? std::nullopt : std::optional(scripts)));
+  key.add("scripts", scripts_hash(settings.run.scripts));
   return key.make("scene");
 }
 
