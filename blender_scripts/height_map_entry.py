@@ -33,8 +33,8 @@ def main(task):
     lamps = place_lamps(scene, request)
     image = cycles.new_float_image("rnmbake height map", request["width"], request["height"])
     with open(task.path(request["receivers"]["file"]), "rb") as stream:
-        mesh = receivers.build_mesh("rnmbake receiver", stream, request["receivers"]["corners"])
-    receiver = receivers.make_receiver(scene, mesh, receivers.make_material(image))
+        mesh = receivers.build_mesh("rnmbake receiver", stream, [(request["receivers"]["corners"], True)])
+    receiver, _ = receivers.make_receiver(scene, mesh, receivers.make_material(image))
     for number, bake in enumerate(request["bakes"]):
         task.progress("bake", bake["light"], number, len(request["bakes"]), number + 1,
                       cycles.samples_of_picture(scene, request["width"], request["height"]))
