@@ -36,7 +36,7 @@ def reach(port):
 
 def outlive(mark):
     """In a session of its own, with no parent, and with nothing in its environment that says whose it is."""
-    subprocess.Popen(["/bin/sh", "-c", f"/bin/sleep 6; echo {mark} > {mark}"], env={}, start_new_session=True,
+    subprocess.Popen(["/bin/sh", "-c", f"/bin/sleep 6; echo here > {mark}"], env={}, start_new_session=True,
                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -60,7 +60,7 @@ if CASE == "escape":
         "network": tried(lambda: reach(PLACES["port"])),
         "processes": seen_processes(),
     }
-    outlive(PLACES["outlived"])
+    outlive(os.path.join(FOLDER, "outlived"))
     with open(os.path.join(FOLDER, "findings.json"), "w") as stream:
         json.dump(findings, stream)
 elif CASE == "link":
