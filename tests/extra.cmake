@@ -82,8 +82,11 @@ rnm_check(outputs.check blender 1200 with_blender/outputs)
 
 rnm_check(saved_scene.check blender 1200 with_blender/saved_scene)
 
-# A bake as tasks for many machines. (On a Slurm of two nodes: farm/farm_check.py Slurm, by hand.)
+# A bake as tasks for many machines, and on a Slurm of two nodes, which runs two Blenders at a time.
 rnm_check(farm.Tasks "blender;farm" 2400 farm/farm ARGS Tasks)
+rnm_check(farm.NoSlurm "blender;farm" 1200 farm/slurm ARGS NoSlurm)
+rnm_check(farm.Slurm "blender;farm" 2400 farm/slurm ARGS Slurm)
+set_tests_properties(farm.Slurm PROPERTIES PROCESSORS 2 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)

@@ -15,6 +15,7 @@
 #include "cli/doctor.h"
 #include "cli/export.h"
 #include "cli/farm/farm.h"
+#include "cli/farm/queue.h"
 #include "cli/flags/help_format.h"
 #include "cli/inspect.h"
 #include "cli/probes.h"
@@ -163,7 +164,8 @@ constexpr const char* about_task =
     "killed and run again, or run twice at once. Exit code 6 says that objects failed.";
 
 constexpr const char* about_status =
-    "\n\nCounts the files in PLAN/tasks, which are the truth whatever a queue remembers.";
+    "\n\nCounts the files in PLAN/tasks, which are the truth whatever a queue remembers, and says what the\n"
+    "queue knows.";
 
 constexpr const char* about_render =
     "\n\nThe view of the scene's camera: albedo times the light that a shader reads from the lightmaps with "
@@ -201,6 +203,8 @@ const std::vector<Command>& commands() {
       {"submit", add_submit_command, about_submit},
       {"task", add_task_command, about_task},
       {"status", add_status_command, about_status},
+      {"wait", add_wait_command},
+      {"cancel", add_cancel_command},
   };
   return all;
 }

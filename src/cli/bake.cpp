@@ -12,6 +12,7 @@
 #include "cli/run_report.h"
 #include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
+#include "pipeline/farm/shared_folders.h"
 #include "pipeline/farm/task_result.h"
 #include "pipeline/lightmaps/last_run.h"
 #include "pipeline/reference/reference_plan.h"
@@ -116,9 +117,9 @@ std::function<std::string(std::size_t)> reasons_of(const std::optional<FarmPlan>
   };
 }
 
-int bake(ResolvedConfig config, const BakeFlags& flags, RunReport& made) {
+int bake_or_merge(ResolvedConfig config, const BakeFlags& flags, const std::optional<FarmPlan>& plan,
+                  RunReport& made) {
   const double started = steady_clock().now();
-  const std::optional<FarmPlan> plan = plan_to_merge(flags, config.globals);
   const bool traced = is_traced(config.globals);
   if (traced) (void)plan_traced_bake(config, "5.0");  // throws for what only Cycles does
   const OutputSettings& output = config.globals.output;
@@ -153,11 +154,24 @@ int bake(ResolvedConfig config, const BakeFlags& flags, RunReport& made) {
   if (flags.dry_run) return show_plan(preview_bake(session, subject));
   const int code = report(run_bake(session, subject), output);
   if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey);
-  if (plan) note_merged(*plan, code);
   made = made_from(config);
   add_scene_inputs(scene.survey.inputs, made);
   add_lightmaps(made);
   return code;
+}
+
+int bake(ResolvedConfig config, const BakeFlags& flags, RunReport& made) {
+  const std::optional<FarmPlan> plan = plan_to_merge(flags, config.globals);
+  if (!plan || flags.dry_run) return bake_or_merge(std::move(config), flags, plan, made);
+  try {
+    const int code = bake_or_merge(std::move(config), flags, plan, made);
+    note_merged(*plan, {code, ""});
+    if (code == static_cast<int>(ExitCode::ok)) remove_token(*plan);
+    return code;
+  } catch (const Error& error) {
+    note_merged(*plan, {static_cast<int>(error.code()), error.what()});
+    throw;
+  }
 }
 
 /// One scene after the other, each with all cores. The exit code is the first that is not 0.

@@ -29,6 +29,7 @@ FOREIGN_FLAGS = {
     "--factory-startup", "--python", "--python-exit-code",  # blender
     "--install", "--preset", "--build", "--prefix",  # cmake
     "--user", "--scope",  # systemd-run
+    "--array", "--cpus-per-task", "--dependency", "--job-name", "--open-mode", "--requeue",  # sbatch
     "--security-opt", "--privileged",  # docker
     "--info", "--ch", "--chnames",  # oiiotool
     "--gtest_filter",  # GoogleTest

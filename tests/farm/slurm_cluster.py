@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import time
 
-PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "unshare")
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "unshare", "nsenter")
 CONFIGURATION = """ClusterName=farm
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
@@ -31,6 +31,9 @@ SchedulerParameters=batch_sched_delay=0,bf_interval=1
 MpiDefault=none
 ReturnToService=2
 KillWait=10
+MaxArraySize=3
+SlurmdTimeout=10
+MessageTimeout=5
 MailProg=/bin/true
 NodeName=n1 NodeHostname=node1 NodeAddr=127.0.0.1 Port={port1} CPUs=1
 NodeName=n2 NodeHostname=node2 NodeAddr=127.0.0.1 Port={port2} CPUs=1
@@ -75,18 +78,54 @@ class Cluster:
                    f"--pid-file={self.folder}/munge.pid", f"--log-file={self.folder}/munge.log",
                    f"--seed-file={self.folder}/munge.seed")
         self.wait(lambda: (self.folder / "munge.sock").exists())
-        self.begin("slurmctld", "-D", "-c", "-f", str(self.folder / "slurm.conf"))
+        self.start_controller("-c")
+        self.nodes = {}
         for node in ("n1", "n2"):
             (self.folder / f"spool.{node}").mkdir()
-            # A PID namespace each: whatever runs on a node ends with it.
-            self.begin("unshare", "--pid", "--fork", "--mount-proc", "--kill-child=KILL", "bash", "-c",
-                       'slurmd -D -c -N "$1" -f "$2" & wait $!', "init", node, str(self.folder / "slurm.conf"))
+            self.start_node(node)
         self.wait(lambda: self.idle() == ["n1", "n2"])
+
+    def start_controller(self, *words):
+        self.controller = self.begin("slurmctld", "-D", *words, "-f", str(self.folder / "slurm.conf"))
+
+    def kill_controller(self):
+        """Without a chance to save anything."""
+        self.end(self.controller, signal.SIGKILL)
+
+    def start_node(self, node):
+        """In a PID namespace of its own: whatever runs on a node ends with it."""
+        self.nodes[node] = self.begin("unshare", "--pid", "--fork", "--mount-proc", "--kill-child=KILL", "bash", "-c",
+                                      'slurmd -D -c -N "$1" -f "$2" & wait $!', "init", node,
+                                      str(self.folder / "slurm.conf"))
+
+    def kill_node(self, node):
+        """As if its power had gone."""
+        self.end(self.nodes.pop(node), signal.SIGKILL)
+
+    def hide(self, node, folder):
+        """From then on the node has an empty folder of its own there."""
+        self.on_node(node, "mount", "-t", "tmpfs", "none", folder)
+
+    def show(self, node, folder):
+        self.on_node(node, "umount", folder)
+
+    def on_node(self, node, *words):
+        subprocess.run(["nsenter", "-t", str(self.nodes[node].pid), "-m", *map(str, words)], check=True, timeout=60)
 
     def begin(self, *words):
         with open(self.folder / f"{words[0]}-{len(self.processes)}.out", "wb") as out:
             self.processes.append(subprocess.Popen(words, env=self.environment(), stdin=subprocess.DEVNULL, stdout=out,
                                                    stderr=out, start_new_session=True))
+        return self.processes[-1]
+
+    def end(self, process, with_signal):
+        self.processes.remove(process)
+        process.send_signal(with_signal)
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
     def idle(self):
         done = subprocess.run(["sinfo", "-h", "-N", "-t", "idle", "-o", "%N"], env=self.environment(), capture_output=True,
@@ -102,11 +141,6 @@ class Cluster:
             time.sleep(0.1)
 
     def stop(self):
-        for process in reversed(self.processes):
-            process.send_signal(signal.SIGTERM if "unshare" not in process.args else signal.SIGKILL)
-            try:
-                process.wait(10)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+        for process in reversed(list(self.processes)):
+            self.end(process, signal.SIGTERM if "unshare" not in process.args else signal.SIGKILL)
         shutil.rmtree(self.folder, ignore_errors=True)

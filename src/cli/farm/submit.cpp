@@ -6,6 +6,7 @@
 #include "cli/bases/basis_file.h"
 #include "cli/farm/farm.h"
 #include "cli/farm/merge_arguments.h"
+#include "cli/farm/queue.h"
 #include "cli/flags/command_line.h"
 #include "cli/flags/settings_flags.h"
 #include "pipeline/farm/cut_tasks.h"
@@ -31,7 +32,12 @@ namespace fs = std::filesystem;
 struct SubmitFlags {
   fs::path plan;
   double task_minutes = 15;
+  QueueFlags queue;
 };
+
+fs::path plan_folder(const ResolvedConfig& config, const SubmitFlags& flags) {
+  return flags.plan.empty() ? usual_plan_folder(config.globals.output.dir) : flags.plan;
+}
 
 FarmPlan make_plan(ResolvedConfig config, const SubmitFlags& flags, std::vector<std::string> merge) {
   require_farmable(config);
@@ -41,8 +47,7 @@ FarmPlan make_plan(ResolvedConfig config, const SubmitFlags& flags, std::vector<
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
   const FolderLock lock = prepare_output(output, config.globals.run);
-  FarmOptions options{flags.plan.empty() ? usual_plan_folder(output.dir) : flags.plan,
-                      flags.task_minutes * 60, std::move(merge)};
+  FarmOptions options{plan_folder(config, flags), flags.task_minutes * 60, std::move(merge)};
   prepare_plan_folder(options.folder);
   BlenderSession session(config, blender, options.folder);
   const SurveyResult scene = survey_scene(session);
@@ -70,6 +75,7 @@ void say_what_next(const FarmPlan& plan) {
 }
 
 int submit(const ResolvedConfig& config, const SubmitFlags& flags, std::vector<std::string> merge) {
+  flags.queue.require(plan_folder(config, flags));  // before anything is planned
   const FarmPlan plan = make_plan(config, flags, std::move(merge));
   double all = 0, longest = 0;
   for (const FarmTask& task : plan.tasks) {
@@ -80,7 +86,7 @@ int submit(const ResolvedConfig& config, const SubmitFlags& flags, std::vector<s
             counted(plan.tasks.size(), "task"),
             spoken_duration(plan.tasks.empty() ? 0 : all / double(plan.tasks.size())),
             spoken_duration(longest), 100 * (imbalance(plan.tasks) - 1), plan.folder.string());
-  say_what_next(plan);
+  if (!flags.queue.submit(plan)) say_what_next(plan);
   return static_cast<int>(ExitCode::ok);
 }
 
@@ -96,6 +102,7 @@ std::function<int()> add_submit_command(CLI::App& app) {
       ->type_name("X")
       ->check(CLI::Range(0.01, 1e5))
       ->capture_default_str();
+  flags->queue.add_to(*command);
   return [settings, flags] {
     const auto config = settings->resolve();
     if (!config) return static_cast<int>(ExitCode::ok);

@@ -88,6 +88,7 @@ FarmPlan plan_of(const json& text, const fs::path& folder) {
   plan.scene = folder / text.at("scene").get<std::string>();  // an absolute path stays what it is
   plan.scene_key = {"scene", text.at("scene_key")};
   plan.scene_triangles = text.at("scene_triangles");
+  plan.output = text.at("output").get<std::string>();
   plan.jobs = text.at("jobs");
   plan.settings = text.at("settings");
   plan.work_folder = text.at("merge").at("folder").get<std::string>();
@@ -130,6 +131,7 @@ void write_farm_plan(const FarmPlan& plan) {
       {"scene", (is_inside ? inside : plan.scene).string()},
       {"scene_key", plan.scene_key.digits},
       {"scene_triangles", plan.scene_triangles},
+      {"output", plan.output.string()},
       {"jobs", plan.jobs},
       {"settings", plan.settings},
       {"merge", {{"folder", plan.work_folder.string()}, {"arguments", plan.merge}}},

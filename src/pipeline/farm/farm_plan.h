@@ -54,6 +54,7 @@ struct FarmPlan {
   std::int64_t scene_triangles = 0;
   int jobs = 1;                       // Blenders at a time that atlases were laid out for
   nlohmann::json settings;            // key -> value, of those that launches need
+  std::filesystem::path output;       // of the lightmaps, absolute
   std::filesystem::path work_folder;  // in which `merge` was typed
   std::vector<std::string> merge;     // arguments of the bake that merges
   std::vector<RunFile> inputs;        // files that the scene reads, as they were
@@ -80,6 +81,7 @@ struct NodeSettings {
   std::string blender;
   int threads = 0;
   bool keep_temporary = false;
+  bool must_see_output = false;  // where the merge may run here, too
 };
 
 /// The settings of a launch on a node.

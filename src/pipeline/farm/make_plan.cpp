@@ -13,6 +13,7 @@
 #include "pipeline/farm/batch_file.h"
 #include "pipeline/farm/cut_tasks.h"
 #include "pipeline/farm/farm_sink.h"
+#include "pipeline/farm/shared_folders.h"
 #include "pipeline/run/result_store.h"
 #include "pipeline/scene/scene_key.h"
 
@@ -183,16 +184,14 @@ FarmPlan make_farm_plan(BlenderSession& session, const BakeSubject& subject, Sto
   farm.scene_key = scene_key(session, subject.survey);
   farm.scene_triangles = scene_triangles(subject.survey);
   farm.settings = launch_settings(session.config());
+  farm.output = fs::absolute(session.settings().output.dir).lexically_normal();
   farm.work_folder = fs::current_path();
   farm.merge = options.merge;
   farm.inputs = look_at_inputs(subject.survey);
   plan_only(session, subject, Planner(session, subject, farm));
   farm.scene = place_scene(session, subject.blends.shown, farm.folder);
   farm.tasks = cut_tasks(farm.batches, options.task_seconds, launch_seconds(farm.scene_triangles));
-  store.put(farm.probe_key(), farm.id);
-  if (!store.has(farm.probe_key()))
-    fail(ExitCode::io, "nothing can be kept in the cache {}; name another with --cache",
-         store.folder().string());
+  leave_tokens(farm, store);
   write_farm_plan(farm);
   return farm;
 }

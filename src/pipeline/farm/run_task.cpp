@@ -8,6 +8,7 @@
 #include "pipeline/dispatch/dispatcher.h"
 #include "pipeline/farm/batch_file.h"
 #include "pipeline/farm/farm_sink.h"
+#include "pipeline/farm/shared_folders.h"
 #include "pipeline/run/result_store.h"
 
 #include <optional>
@@ -38,15 +39,6 @@ void require_same_inputs(const FarmPlan& plan) {
   if (!changes.empty())
     fail(ExitCode::invalid_input, "{} since the plan was made, or is another file on {}; submit again",
          changes.front(), host_name());
-}
-
-/// One that this node alone sees would swallow its results.
-void require_same_cache(const FarmPlan& plan, Store& store) {
-  if (!store.get(plan.probe_key()))
-    fail(ExitCode::environment,
-         "the cache {} on {} is not the one that the plan was made with: is that folder shared? Submit again "
-         "with --cache in a folder that all machines see",
-         store.folder().string(), host_name());
 }
 
 /// One launch for each share: its batch of `pieces`, and passes.
@@ -82,12 +74,13 @@ TaskResult bake_task(const FarmPlan& plan, const FarmTask& task, const NodeSetti
   const ResolvedConfig config = node_config(plan, node);
   require_same_inputs(plan);
   Store store = open_store(config.globals);
-  require_same_cache(plan, store);
+  require_shared_cache(plan, store);
   TaskResult result;
   if (not_kept(plan, task, store) == 0) {
     log::info("all passes are in the cache already");
     return result;
   }
+  if (node.must_see_output) require_shared_output(plan);
   LateBlender blender(config.globals);
   require_same_blender(plan, config.globals, blender.info());
   BlenderSession session(config, blender);

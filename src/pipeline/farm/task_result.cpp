@@ -4,6 +4,7 @@
 #include "base/json.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
@@ -56,10 +57,20 @@ void write_task_result(const FarmPlan& plan, std::size_t task, const TaskResult&
 }
 
 std::map<std::size_t, TaskResult> read_task_results(const FarmPlan& plan) {
+  return new_task_results(plan, {});
+}
+
+std::map<std::size_t, TaskResult> new_task_results(const FarmPlan& plan,
+                                                   const std::map<std::size_t, TaskResult>& known) {
   std::map<std::size_t, TaskResult> results;
-  for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
-    if (auto result = result_of(json_of_plan(plan, task_file(plan, task, "json"))))
-      results[task] = std::move(*result);
+  std::error_code error;
+  // The folder is listed: over NFS that finds files which were not there at the last look.
+  for (fs::directory_iterator at(plan.folder / "tasks", error), end; !error && at != end;
+       at.increment(error)) {
+    const std::size_t task = std::strtoull(at->path().stem().c_str(), nullptr, 10);
+    if (task >= plan.tasks.size() || known.contains(task) || at->path() != task_file(plan, task, "json"))
+      continue;
+    if (auto result = result_of(json_of_plan(plan, at->path()))) results[task] = std::move(*result);
   }
   return results;
 }
@@ -74,15 +85,17 @@ bool has_begun(const FarmPlan& plan, std::size_t task) {
   return !json_of_plan(plan, task_file(plan, task, "begun")).is_null();
 }
 
-void note_merged(const FarmPlan& plan, int exit_code) {
+void note_merged(const FarmPlan& plan, const MergeResult& result) {
+  const json text{{"plan", plan.id}, {"exit_code", result.exit_code}, {"error", result.error}};
   write_atomically(plan.folder / "merged.json",
-                   json{{"plan", plan.id}, {"exit_code", exit_code}}.dump() + "\n");
+                   text.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-std::optional<int> merged(const FarmPlan& plan) {
+std::optional<MergeResult> merged(const FarmPlan& plan) {
   const json text = json_of_plan(plan, plan.folder / "merged.json");
   if (text.is_null() || !text.value("exit_code", json()).is_number_integer()) return std::nullopt;
-  return text.at("exit_code").get<int>();
+  const json error = text.value("error", json());
+  return MergeResult{text.at("exit_code"), error.is_string() ? error.get<std::string>() : ""};
 }
 
 std::string why_missing(const FarmPlan& plan, const std::map<std::size_t, TaskResult>& results,
@@ -109,6 +122,7 @@ std::string why_missing(const FarmPlan& plan, const std::map<std::size_t, TaskRe
 }
 
 std::string host_name() {
+  if (const char* node = std::getenv("SLURMD_NODENAME")) return node;
   char name[256] = {};
   (void)::gethostname(name, sizeof name - 1);
   return name;

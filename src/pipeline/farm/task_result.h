@@ -30,18 +30,29 @@ void write_task_result(const FarmPlan& plan, std::size_t task, const TaskResult&
 /// Of this plan, by task. What cannot be read, or is another plan's, is not there.
 [[nodiscard]] std::map<std::size_t, TaskResult> read_task_results(const FarmPlan& plan);
 
+/// Those that are not among the known ones.
+[[nodiscard]] std::map<std::size_t, TaskResult> new_task_results(
+    const FarmPlan& plan, const std::map<std::size_t, TaskResult>& known);
+
 /// tasks/N.begun: somebody runs it, or ran it when he was killed.
 void note_task_begun(const FarmPlan& plan, std::size_t task);
 [[nodiscard]] bool has_begun(const FarmPlan& plan, std::size_t task);
 
-/// merged.json: the bake that merges has ended, with that exit code.
-void note_merged(const FarmPlan& plan, int exit_code);
-[[nodiscard]] std::optional<int> merged(const FarmPlan& plan);
+/// How the bake that merges ended.
+struct MergeResult {
+  int exit_code = 0;
+  std::string error;  // that ended it as a whole
+};
+
+/// merged.json.
+void note_merged(const FarmPlan& plan, const MergeResult& result);
+[[nodiscard]] std::optional<MergeResult> merged(const FarmPlan& plan);
 
 /// Why an object lacks passes, with what to do about it.
 [[nodiscard]] std::string why_missing(const FarmPlan& plan, const std::map<std::size_t, TaskResult>& results,
                                       const std::string& object);
 
+/// Of this machine, as its queue calls it where one started us.
 [[nodiscard]] std::string host_name();
 
 }  // namespace rnmbake
