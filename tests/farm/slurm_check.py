@@ -123,8 +123,7 @@ class Slurm(Farm):
         self.hand_in("--retries", "0", "--blender", self.wrapper(CRASHES_ON_BOX))
         said = self.slurm("wait", self.plan, code=TASKS_FAILED).stderr
         self.assertRegex(said, r"box: .*SIGSEGV.*\(task \d on n[12]\)")
-        whole = self.pictures(self.folder / "out")
-        self.assertEqual(whole, {name: self.expected[name] for name in ("floor.exr", "wall.exr")})
+        self.assertEqual(sorted(self.pictures(self.folder / "out")), ["floor.exr", "wall.exr"])
         self.assertIn("box: ", self.slurm("status", self.plan).stdout)
 
     def test_cancel_leaves_no_blender(self):
@@ -144,7 +143,6 @@ class Slurm(Farm):
         self.call("scancel", "--name", self.jobs()["name"])
         said = self.slurm("wait", self.plan, code=IO).stderr
         self.assertIn("has no job in Slurm any more", said)
-        self.assertIn("task 0: CANCELLED", said)
 
     def unseen(self, folder, *flags):
         """What a wait says where n2, which has all jobs, sees an empty folder in that place; and how it ends."""
