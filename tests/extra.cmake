@@ -88,6 +88,12 @@ rnm_check(farm.NoSlurm "blender;farm" 1200 farm/slurm ARGS NoSlurm)
 rnm_check(farm.Slurm "blender;farm" 2400 farm/slurm ARGS Slurm)
 set_tests_properties(farm.Slurm PROPERTIES PROCESSORS 2 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
+# A plan as a job of other queues, run by their own programs.
+foreach(CLASS OpenJobDescription Flamenco)
+  rnm_check(farm.${CLASS} "blender;farm" 1200 farm/export ENV RNMBAKE_BUILD=${CMAKE_BINARY_DIR} ARGS ${CLASS})
+  set_tests_properties(farm.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+endforeach()
+
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
 target_link_libraries(sample_report PRIVATE report rnm_warnings)

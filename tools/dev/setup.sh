@@ -10,7 +10,7 @@ build_packages=(
 blender_packages=(blender python3-numpy)
 style_packages=(clang-format pyflakes3)
 slurm_packages=(slurmctld slurmd slurm-client munge) # for a cluster of the tests' own
-test_packages=("${build_packages[@]}" "${blender_packages[@]}" "${slurm_packages[@]}" python3-jsonschema chromium glslang-tools libegl1 libgl1-mesa-dri)
+test_packages=("${build_packages[@]}" "${blender_packages[@]}" "${slurm_packages[@]}" python3-jsonschema python3-venv nodejs chromium glslang-tools libegl1 libgl1-mesa-dri)
 
 die() {
   echo "dev: $*" >&2

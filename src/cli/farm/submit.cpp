@@ -10,7 +10,10 @@
 #include "cli/flags/command_line.h"
 #include "cli/flags/settings_flags.h"
 #include "pipeline/farm/cut_tasks.h"
+#include "pipeline/farm/export_flamenco.h"
+#include "pipeline/farm/export_openjd.h"
 #include "pipeline/farm/make_plan.h"
+#include "pipeline/farm/queue_words.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/run/result_store.h"
 #include "pipeline/scene/scene_key.h"
@@ -33,6 +36,7 @@ struct SubmitFlags {
   fs::path plan;
   double task_minutes = 15;
   QueueFlags queue;
+  std::string exported;  // "openjd", "flamenco"; "": for no other queue
 };
 
 fs::path plan_folder(const ResolvedConfig& config, const SubmitFlags& flags) {
@@ -60,6 +64,12 @@ FarmPlan make_plan(ResolvedConfig config, const SubmitFlags& flags, std::vector<
   return make_farm_plan(session, subject, store, options);
 }
 
+void export_plan(const FarmPlan& plan, const std::string& queue) {
+  const fs::path job = queue == "openjd" ? export_openjd(plan) : export_flamenco(plan);
+  std::cout << "# tasks and merge as one job of a queue (docs/farm.md):\n"
+            << shell_word(job.string()) << "\n";
+}
+
 void say_what_next(const FarmPlan& plan) {
   const std::string folder = shell_word(plan.folder.string());
   if (!plan.tasks.empty()) {
@@ -76,6 +86,7 @@ void say_what_next(const FarmPlan& plan) {
 
 int submit(const ResolvedConfig& config, const SubmitFlags& flags, std::vector<std::string> merge) {
   flags.queue.require(plan_folder(config, flags));  // before anything is planned
+  if (!flags.exported.empty()) require_queue_words(fs::absolute(plan_folder(config, flags)));
   const FarmPlan plan = make_plan(config, flags, std::move(merge));
   double all = 0, longest = 0;
   for (const FarmTask& task : plan.tasks) {
@@ -86,6 +97,7 @@ int submit(const ResolvedConfig& config, const SubmitFlags& flags, std::vector<s
             counted(plan.tasks.size(), "task"),
             spoken_duration(plan.tasks.empty() ? 0 : all / double(plan.tasks.size())),
             spoken_duration(longest), 100 * (imbalance(plan.tasks) - 1), plan.folder.string());
+  if (!flags.exported.empty()) export_plan(plan, flags.exported);
   if (!flags.queue.submit(plan)) say_what_next(plan);
   return static_cast<int>(ExitCode::ok);
 }
@@ -103,6 +115,9 @@ std::function<int()> add_submit_command(CLI::App& app) {
       ->check(CLI::Range(0.01, 1e5))
       ->capture_default_str();
   flags->queue.add_to(*command);
+  command->add_option("--export", flags->exported, "write the plan down as a job for another queue, too")
+      ->type_name("openjd|flamenco")
+      ->check(CLI::IsMember({"openjd", "flamenco"}).description(""));
   return [settings, flags] {
     const auto config = settings->resolve();
     if (!config) return static_cast<int>(ExitCode::ok);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int farm_schema = 1;
+constexpr int farm_schema = 2;
 
 constexpr std::array<std::string_view, 16> needed_by_launches{
     "scene",        "view_layer",  "frame",          "allow_scripts", "materials", "atlas_limit",
@@ -36,16 +36,15 @@ FarmPass pass_of(const json& pass) {
           pass.at("seconds")};
 }
 
-json batch_json(const FarmBatch& batch) {
-  json passes = json::array();
-  for (const FarmPass& pass : batch.passes) passes.push_back(pass_json(pass));
-  return {{"objects", batch.objects}, {"passes", passes}};
+fs::path passes_file(const FarmPlan& plan, std::size_t batch) {
+  return plan.batch_folder(batch) / "passes.json";
 }
 
-FarmBatch batch_of(const json& batch) {
-  FarmBatch result{batch.at("objects").get<std::vector<std::string>>(), {}};
-  for (const json& pass : batch.at("passes")) result.passes.push_back(pass_of(pass));
-  return result;
+void write_passes(const FarmPlan& plan, std::size_t batch) {
+  json passes = json::array();
+  for (const FarmPass& pass : plan.batches[batch].passes) passes.push_back(pass_json(pass));
+  make_folders(plan.batch_folder(batch));
+  write_atomically(passes_file(plan, batch), passes.dump() + "\n");
 }
 
 json task_json(const FarmTask& task) {
@@ -55,14 +54,13 @@ json task_json(const FarmTask& task) {
   return {{"seconds", task.seconds}, {"shares", shares}};
 }
 
-/// Throws Error(invalid_input) where a share names what is not there.
+/// Throws Error(invalid_input) where a share names a batch that is not there.
 FarmTask task_of(const json& task, const std::vector<FarmBatch>& batches) {
   FarmTask result{{}, task.at("seconds")};
   for (const json& share : task.at("shares")) {
     const FarmShare one{share.at("batch"), share.at("first"), share.at("count")};
-    if (one.batch >= batches.size() || one.count > batches[one.batch].passes.size() ||
-        one.first > batches[one.batch].passes.size() - one.count)
-      fail(ExitCode::invalid_input, "plan.json names passes that it does not list; submit again");
+    if (one.batch >= batches.size())
+      fail(ExitCode::invalid_input, "plan.json names a batch that it does not list; submit again");
     result.shares.push_back(one);
   }
   return result;
@@ -96,7 +94,8 @@ FarmPlan plan_of(const json& text, const fs::path& folder) {
   for (const json& file : text.at("inputs"))
     plan.inputs.push_back({file.at("kind"), file.at("path").get<std::string>(), file.at("size"),
                            file.at("time"), file.at("hash")});
-  for (const json& batch : text.at("batches")) plan.batches.push_back(batch_of(batch));
+  for (const json& batch : text.at("batches"))
+    plan.batches.push_back({batch.at("objects").get<std::vector<std::string>>(), {}});
   for (const json& task : text.at("tasks")) plan.tasks.push_back(task_of(task, plan.batches));
   return plan;
 }
@@ -120,7 +119,10 @@ void write_farm_plan(const FarmPlan& plan) {
   const bool is_inside = !inside.empty() && *inside.begin() != "..";
   json inputs = json::array(), batches = json::array(), tasks = json::array();
   for (const RunFile& file : plan.inputs) inputs.push_back(input_json(file));
-  for (const FarmBatch& batch : plan.batches) batches.push_back(batch_json(batch));
+  for (std::size_t batch = 0; batch < plan.batches.size(); ++batch) {
+    write_passes(plan, batch);
+    batches.push_back({{"objects", plan.batches[batch].objects}});
+  }
   for (const FarmTask& task : plan.tasks) tasks.push_back(task_json(task));
   const FarmBlender& blender = plan.blender;
   const json text{
@@ -156,6 +158,24 @@ FarmPlan read_farm_plan(const fs::path& folder) {
   } catch (const json::exception& problem) {
     fail(ExitCode::invalid_input, "{}: {}; submit again", file.string(), brief(problem));
   }
+}
+
+PassesByBatch read_passes(const FarmPlan& plan, const FarmTask& task) {
+  PassesByBatch all;
+  for (const FarmShare& share : task.shares) {
+    const std::string file = passes_file(plan, share.batch).string();
+    std::vector<FarmPass>& passes = all[share.batch];
+    try {
+      if (passes.empty()) {
+        for (const json& pass : parse_json(read_text(file), file)) passes.push_back(pass_of(pass));
+      }
+    } catch (const json::exception& problem) {
+      fail(ExitCode::invalid_input, "{}: {}; submit again", file, brief(problem));
+    }
+    if (share.count > passes.size() || share.first > passes.size() - share.count)
+      fail(ExitCode::invalid_input, "{} lacks passes that plan.json names; submit again", file);
+  }
+  return all;
 }
 
 json launch_settings(const ResolvedConfig& config) {

@@ -1,7 +1,7 @@
 // pipeline/farm/farm_plan.h - a bake as tasks that any machine may run: what a plan folder holds.
 //
-// plan.json, tasks/ (what became of each), batches/ (what to bake), scene/ (scenes that were made for it);
-// docs/farm.md has the format.
+// plan.json, which every task reads, tasks/ (what became of each), batches/ (what to bake, read by the
+// batch's tasks alone), scene/ (scenes that were made for it); docs/farm.md has the format.
 #pragma once
 
 #include "bake/sample_passes.h"
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct FarmPass {
 
 struct FarmBatch {
   std::vector<std::string> objects;  // keys of its targets
-  std::vector<FarmPass> passes;
+  std::vector<FarmPass> passes;      // of a plan in the making; read_passes() has those of one that was read
 };
 
 /// Passes [first, first + count) of a batch: one launch.
@@ -66,12 +67,16 @@ struct FarmPlan {
   [[nodiscard]] ResultKey probe_key() const;
 };
 
-/// plan.json, at last.
+/// Passes of batches, and at last plan.json.
 void write_farm_plan(const FarmPlan& plan);
 
 /// Of a plan folder, or an output folder with one in its usual place. Throws Error(io) where there is none,
 /// Error(invalid_input) where it cannot be understood.
 [[nodiscard]] FarmPlan read_farm_plan(const std::filesystem::path& folder);
+
+/// Passes of the batches that a task has shares of. Throws Error(invalid_input) where a share names others.
+using PassesByBatch = std::map<std::size_t, std::vector<FarmPass>>;
+[[nodiscard]] PassesByBatch read_passes(const FarmPlan& plan, const FarmTask& task);
 
 /// The usual place of a plan: within the output folder.
 [[nodiscard]] std::filesystem::path usual_plan_folder(const std::filesystem::path& output);

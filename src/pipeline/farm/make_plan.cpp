@@ -159,8 +159,9 @@ void settle_layout(BakeSettings& settings) {
 
 void prepare_plan_folder(const fs::path& folder) {
   make_folders(folder);
-  const std::set<std::string> ours{"plan.json", "merged.json", "tasks",       "batches",
-                                   "scene",     "slurm",       "openjd.json", "job.sh"};
+  const std::set<std::string> ours{
+      "plan.json", "merged.json", "tasks",  "batches",       "scene",
+      "slurm",     "openjd.json", "job.sh", "flamenco.json", "rnmbake.flamenco.js"};
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

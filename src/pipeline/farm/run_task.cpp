@@ -42,13 +42,13 @@ void require_same_inputs(const FarmPlan& plan) {
 }
 
 /// One launch for each share: its batch of `pieces`, and passes.
-std::vector<MissingBatch> shares_of(const FarmPlan& plan, const FarmTask& task, const Plan& pieces) {
+std::vector<MissingBatch> shares_of(const PassesByBatch& passes, const FarmTask& task, const Plan& pieces) {
   std::vector<MissingBatch> shares;
   for (std::size_t i = 0; i < task.shares.size(); ++i) {
     const FarmShare& share = task.shares[i];
     MissingBatch one{pieces.batches[i], {0, 0}, {}};
     for (std::size_t pass = share.first; pass < share.first + share.count; ++pass)
-      one.passes.push_back(plan.batches[share.batch].passes[pass].samples);
+      one.passes.push_back(passes.at(share.batch)[pass].samples);
     shares.push_back(std::move(one));
   }
   return shares;
@@ -61,11 +61,11 @@ Plan pieces_of(const FarmPlan& plan, const FarmTask& task) {
 }
 
 /// Passes that ought to be in the cache and are not: the disk is full, or the cache too small.
-std::size_t not_kept(const FarmPlan& plan, const FarmTask& task, const Store& store) {
+std::size_t not_kept(const PassesByBatch& passes, const FarmTask& task, const Store& store) {
   std::size_t missing = 0;
   for (const FarmShare& share : task.shares) {
     for (std::size_t pass = share.first; pass < share.first + share.count; ++pass)
-      missing += store.has(plan.batches[share.batch].passes[pass].key) ? 0 : 1;
+      missing += store.has(passes.at(share.batch)[pass].key) ? 0 : 1;
   }
   return missing;
 }
@@ -75,8 +75,9 @@ TaskResult bake_task(const FarmPlan& plan, const FarmTask& task, const NodeSetti
   require_same_inputs(plan);
   Store store = open_store(config.globals);
   require_shared_cache(plan, store);
+  const PassesByBatch passes = read_passes(plan, task);
   TaskResult result;
-  if (not_kept(plan, task, store) == 0) {
+  if (not_kept(passes, task, store) == 0) {
     log::info("all passes are in the cache already");
     return result;
   }
@@ -91,14 +92,14 @@ TaskResult bake_task(const FarmPlan& plan, const FarmTask& task, const NodeSetti
     return receivers.request(batch, plan.jobs, folder);
   };
   FarmSink sink;
-  DispatchRules rules{{store, plan.scene_key}, {}, shares_of(plan, task, pieces), {}};
+  DispatchRules rules{{store, plan.scene_key}, {}, shares_of(passes, task, pieces), {}};
   result.launches = int(run_batches(session, pieces, BlendPath(plan.scene), recipe, sink, rules).launches);
   for (const auto& [target, reason] : sink.given_up()) {
     const std::string& key = pieces.targets[target].key;
     log::error("{}: {}", key, reason);
     result.failed.push_back({key, reason});
   }
-  if (const std::size_t lost = not_kept(plan, task, store);
+  if (const std::size_t lost = not_kept(passes, task, store);
       lost > 0 && result.failed.empty() && !store.keeps())
     result.failed.push_back({"", fmt::format("{} passes could not be kept in {}: is its disk full?", lost,
                                              store.folder().string())});
