@@ -12,6 +12,7 @@ import dense
 import dispatch
 import measure
 import memory
+import noop
 import overhead
 import preparation
 import probes
@@ -20,7 +21,7 @@ import startup
 import tracing
 
 BENCHMARKS = {"dispatch": dispatch, "overhead": overhead, "dense": dense, "memory": memory, "preparation": preparation,
-              "startup": startup, "tracing": tracing, "ssbump": ssbump,
+              "startup": startup, "noop": noop, "tracing": tracing, "ssbump": ssbump,
               "convert": convert, "probes": probes}
 RESULTS = Path(__file__).resolve().parent / "results"
 DOCUMENT = measure.ROOT / "docs/performance.md"

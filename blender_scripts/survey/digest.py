@@ -22,6 +22,7 @@ class SceneDigest:
     def __init__(self, meshes):
         self._meshes = meshes  # MeshFile, which has read every surface
         self._found = {}  # what: fingerprints of all that goes by the name
+        self._uses, self._user = {}, None  # what: names of the parts that it points to
         self._seen, self._waiting = set(), []
         self._shown = set()  # names of objects
         self._image_users = {}
@@ -51,8 +52,13 @@ class SceneDigest:
         for what, hashes in sorted(self._found.items()):
             feed = Feed()
             feed.add(*sorted(hashes))
-            joined.append({"what": what, "hash": feed.hexdigest() if len(hashes) > 1 else hashes[0]})
+            joined.append({"what": what, "hash": feed.hexdigest() if len(hashes) > 1 else hashes[0],
+                           "uses": sorted(self._uses.get(what, ()))})
         return joined
+
+    def _note_use(self, user, what):
+        if user != what:
+            self._uses.setdefault(user, set()).add(what)
 
     def _put(self, what, feed):
         self._found.setdefault(what, []).append(feed.hexdigest())
@@ -60,21 +66,27 @@ class SceneDigest:
     def _add_instance(self, instance, instances, depsgraph):
         """An instance's object is Blender's only until the next one is asked for; what it was made from stays."""
         ob = instance.object
+        self._user = None
         if instancer := instancer_of(instance):
+            self._user = f"instances of '{instancer}'"
             values = [repr(name_of(ob)), instance.persistent_id[0], instance.random_id, *numbers(instance.matrix_world),
                       *instance.orco, *instance.uv, instance.show_self, instance.show_particles]
             instances.setdefault(f"instances of '{instancer}'", []).append(" ".join(map(str, values)))
             self._refer(instance.parent.original.evaluated_get(depsgraph))
         self._refer(ob.original.evaluated_get(depsgraph))
+        self._user = None
         self._shown.add(name_of(ob))
         if instance.show_self and isinstance(ob.data, bpy.types.Mesh):
             self._add_mesh(ob)
         elif instance.show_self and ob.type in ("CURVES", "POINTCLOUD"):
             self._add_points(ob)
+        self._user = None
 
     def _refer(self, block):
         """Name of a data-block among the entries; it is looked at later, as evaluated."""
         what = name_of(block)
+        if self._user:
+            self._note_use(self._user, what)
         key = block.original.as_pointer() if block.original else block.as_pointer()
         if key not in self._seen:
             self._seen.add(key)
@@ -83,10 +95,11 @@ class SceneDigest:
 
     def _settle(self):
         while self._waiting:
-            what, block = self._waiting.pop()
+            self._user, block = self._waiting.pop()
             feed = Feed()
             self._feed(block, feed)
-            self._put(what, feed)
+            self._put(self._user, feed)
+        self._user = None
 
     def _feed(self, block, feed):
         if isinstance(block, bpy.types.NodeTree):
@@ -155,31 +168,33 @@ class SceneDigest:
     def _add_mesh(self, ob):
         """Evaluated, of an object; it bears the name of what it was made from."""
         mesh = ob.data
-        key = mesh.as_pointer()
+        source, key = ob.original.data, mesh.as_pointer()
+        what = name_of(source or mesh)
+        self._note_use(name_of(ob), what)
         if key in self._seen:
             return
         self._seen.add(key)
-        feed = Feed()
+        feed, self._user = Feed(), what
         content.feed_mesh(mesh, self._meshes.hash_of(mesh), feed)
         self._walker.walk(mesh, feed, mesh)
-        source = ob.original.data
         if isinstance(source, bpy.types.Mesh) and (ob.modifiers or source.shape_keys):
             feed.add_array("undeformed", content.read(mesh.vertices, "undeformed_co", "f", 3))
         materials = list(mesh.materials)
         if materials != [slot.material for slot in ob.material_slots]:  # nodes gave it others
             feed.add([material and self._refer(material) for material in materials])
-        self._put(name_of(source or mesh), feed)
+        self._put(what, feed)
 
     def _add_points(self, ob):
         """Hair curves or a cloud of points, also those that geometry nodes make of a mesh."""
-        key = ob.data.as_pointer()
+        what, key = name_of(ob.original.data or ob.data), ob.data.as_pointer()
+        self._note_use(name_of(ob), what)
         if key in self._seen:
             return
         self._seen.add(key)
-        feed = Feed()
+        feed, self._user = Feed(), what
         self._feed_content(ob.data, feed)
         feed.add([material and self._refer(material) for material in ob.data.materials])
-        self._put(name_of(ob.original.data or ob.data), feed)
+        self._put(what, feed)
 
     def _look(self, node):
         image, user = getattr(node, "image", None), getattr(node, "image_user", None)

@@ -3,9 +3,11 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
+#include "cli/bake_several.h"
 #include "cli/bases/basis_file.h"
 #include "cli/flags/settings_flags.h"
 #include "cli/reference.h"
@@ -15,7 +17,10 @@
 #include "pipeline/farm/shared_folders.h"
 #include "pipeline/farm/task_result.h"
 #include "pipeline/lightmaps/last_run.h"
+#include "pipeline/lightmaps/left_files.h"
+#include "pipeline/local/local_targets.h"
 #include "pipeline/reference/reference_plan.h"
+#include "pipeline/run/hold_folder.h"
 #include "pipeline/run/result_store.h"
 #include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/scene_key.h"
@@ -25,6 +30,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -52,8 +58,9 @@ std::optional<double> deadline_of(const RunSettings& run, double started) {
 }
 
 struct BakeFlags {
-  bool why = false, dry_run = false, force = false;
-  std::filesystem::path merge;  // plan of rnmbake submit; "": bake
+  bool why = false, dry_run = false, force = false, prune = false, preview = false;
+  std::optional<double> assume_local;  // how far from changes, scene units
+  std::filesystem::path merge;         // plan of rnmbake submit; "": bake
 };
 
 /// Says what made the run necessary; with --why all of it.
@@ -75,6 +82,12 @@ int show_plan(const std::vector<BakePreview>& targets) {
   return static_cast<int>(ExitCode::ok);
 }
 
+void say_assumed(const LocalTargets& local) {
+  if (local.assumed > 0)
+    log::info("{} assumed to be as before; a bake without --assume-local makes sure",
+              counted(local.assumed, "lightmap"));
+}
+
 bool is_traced(const BakeSettings& settings) {
   return settings.bake.engine == BakingSettings::Engine::embree;
 }
@@ -82,13 +95,21 @@ bool is_traced(const BakeSettings& settings) {
 /// With engine embree.
 int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const LastRun& last,
                    RunReport& made) {
+  const LocalRule rule(flags.assume_local, last, config.globals.output.dir);
   BetweenTraceSteps between;
   between.surveyed = [&](const SceneSurvey& survey) {
     say_why(last.scene_changes(survey.digest), flags.why);
   };
-  between.delivered = [&](const SceneSurvey& survey) { last.keep(survey); };
+  between.choose = [&](const SceneSurvey& survey, const TargetList& all, const FindEarlier& find) {
+    return rule.choose(survey, all, find);
+  };
+  between.delivered = [&](const SceneSurvey& survey, const LocalTargets& local) {
+    last.keep(survey, local.assumed);
+    say_assumed(local);
+  };
   if (flags.dry_run) {
-    between.preview = [](const TargetList& list) {
+    between.preview = [&](const SceneSurvey& survey, const TargetList& targets) {
+      const TargetList list = rule.preview(survey, targets);
       std::vector<BakePreview> all;
       for (std::size_t i = 0; i < list.targets.size(); ++i)
         all.push_back({list.targets[i].key, false, list.settings[i].samples});
@@ -124,7 +145,8 @@ int bake_or_merge(ResolvedConfig config, const BakeFlags& flags, const std::opti
   if (traced) (void)plan_traced_bake(config, "5.0");  // throws for what only Cycles does
   const OutputSettings& output = config.globals.output;
   if (output.dir.empty()) (void)prepare_output(output, config.globals.run);  // throws
-  const LastRun last(config, "bake", !traced || !is_rnmscene(config.globals.scene.file));
+  const LastRun last(config, "bake",
+                     {!traced || !is_rnmscene(config.globals.scene.file), !flags.assume_local});
   if (last.reasons().empty() && !flags.force && !plan) {
     log::info("nothing to do: {} is up to date", output.dir.string());
     made = made_from(config);
@@ -143,17 +165,26 @@ int bake_or_merge(ResolvedConfig config, const BakeFlags& flags, const std::opti
   const SurveyResult scene = survey_scene(session);
   say_why(last.scene_changes(scene.survey.digest), flags.why);
   check_light(config, scene.survey);
-  const TargetList list = make_targets(config, scene.survey);
-  EarlierLightmaps earlier = find_earlier(session, {"bake", bases}, scene.survey, list.targets);
+  const FindEarlier find = [&](const std::vector<Target>& targets) {
+    return find_earlier(session, {"bake", bases}, scene.survey, targets);
+  };
+  LocalTargets local = LocalRule(flags.assume_local, last, output.dir)
+                           .choose(scene.survey, make_targets(config, scene.survey), find);
   Store store = open_store(config.globals);
   const DispatchRules rules{{store, scene_key(session, scene.survey)},
                             deadline_of(config.globals.run, started),
                             {},
-                            reasons_of(plan, list.targets)};
-  const BakeSubject subject{scene.survey, list, bases, scene.blends, std::move(earlier), rules};
+                            reasons_of(plan, local.list.targets),
+                            flags.preview};
+  const BakeSubject subject{scene.survey, local.list, bases, scene.blends, local.earlier, rules};
   if (flags.dry_run) return show_plan(preview_bake(session, subject));
-  const int code = report(run_bake(session, subject), output);
-  if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey);
+  int code = static_cast<int>(ExitCode::ok);
+  if (local.list.targets.empty())
+    keep_all(output.dir, scene.survey, local.earlier);
+  else
+    code = report(run_bake(session, subject), output);
+  if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey, local.assumed);
+  say_assumed(local);
   made = made_from(config);
   add_scene_inputs(scene.survey.inputs, made);
   add_lightmaps(made);
@@ -174,23 +205,36 @@ int bake(ResolvedConfig config, const BakeFlags& flags, RunReport& made) {
   }
 }
 
-/// One scene after the other, each with all cores. The exit code is the first that is not 0.
+/// Deletes what no lightmap of the folder is any more.
+void prune(const BakeSettings& settings) {
+  const std::filesystem::path& dir = settings.output.dir;
+  const FolderLock lock = hold_folder(dir, settings.run.lock_wait);
+  const Pruned pruned = prune_left_files(dir);
+  if (!pruned.removed.empty())
+    log::info("{}: {} deleted ({}): no lightmap of the scene any more", dir.string(),
+              counted(pruned.removed.size(), "file"), first_names(pruned.removed));
+  if (!pruned.changed.empty())
+    log::warn("{}: {}: changed since baked, so kept; delete by hand what is not wanted", dir.string(),
+              first_names(pruned.changed));
+}
+
+int bake_and_prune(const ResolvedConfig& config, const BakeFlags& flags, RunReport& made) {
+  const int code = bake(config, flags, made);
+  if (flags.prune && !flags.dry_run) prune(config.globals);
+  return code;
+}
+
 int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags, RunReport& made) {
-  int code = 0;
+  const BakeOne one = [&](const ResolvedConfig& config, RunReport& report) {
+    return bake_and_prune(config, flags, report);
+  };
+  const int code =
+      configs.size() == 1 ? one(configs.front(), made) : bake_several(configs, one, flags.dry_run, made);
+  if (code != 0 || flags.dry_run) return code;
   std::vector<std::filesystem::path> records;
-  for (const ResolvedConfig& config : configs) {
-    if (configs.size() > 1) log::info("{}", config.globals.scene.file.string());
-    RunReport of_scene;
-    const int one = bake(config, flags, of_scene);
-    code = code == 0 ? one : code;
-    if (configs.size() == 1) {
-      made = std::move(of_scene);
-    } else {
-      add_scene(of_scene, made);
-    }
+  for (const ResolvedConfig& config : configs)
     records.push_back(LastRun::record_in(config.globals.output.dir));
-  }
-  if (code == 0 && !flags.dry_run) remember_run(records);
+  remember_run(records);
   return code;
 }
 
@@ -204,6 +248,15 @@ std::function<int()> add_bake_command(CLI::App& app) {
   command->add_flag("--why", more->why, "list all that made the bake necessary");
   command->add_flag("--dry-run", more->dry_run, "say what would be baked, and bake nothing");
   command->add_flag("--force", more->force, "look for changes in the scene even where no file changed");
+  command->add_flag("--prune", more->prune,
+                    "delete the files of earlier lightmaps whose objects left the scene (docs/bake.md)");
+  command->add_flag("--preview", more->preview,
+                    "show each lightmap in DIR/preview after its first pass, until it is there");
+  command
+      ->add_option("--assume-local", more->assume_local,
+                   "bake again only what lies within so many scene units of a change (docs/bake.md)")
+      ->type_name("X")
+      ->check(CLI::Range(0.0, 1e9));
   command
       ->add_option("--merge", more->merge,
                    "bake nothing: merge what the tasks of this plan (rnmbake submit) baked")
@@ -216,6 +269,9 @@ std::function<int()> add_bake_command(CLI::App& app) {
       if (configs.size() > 1 && run->wants_depfile())
         fail(ExitCode::usage,
              "--depfile names the inputs of one scene, and here are {}; bake each by a call of its own",
+             configs.size());
+      if (configs.size() > 1 && !more->merge.empty())
+        fail(ExitCode::usage, "--merge is of one scene, and here are {}; name that of the plan",
              configs.size());
       StopRequest::install();
       return bake_all(configs, *more, made);

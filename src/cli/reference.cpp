@@ -87,20 +87,29 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
     say_what_is_not_followed(exported.diffuse_scene, settings.scene.materials);
   else
     say_what_is_left_out(exported.diffuse_scene);
-  if (between.preview) return between.preview(exported.list);
-  const TraceScene scene(exported.diffuse_scene, plan.blender_version);
-  const EarlierLightmaps earlier = find_earlier(session, {kind.name, bases}, survey, exported.list.targets);
-  SavedScene saved;
-  if (exported.blends) {
-    saved = save_scene_with_uvs(session, survey, exported.blends->own,
-                                earlier.add_to(uvs_of(exported.list.targets)));
+  if (between.preview) return between.preview(survey, exported.list);
+  const FindEarlier find = [&](const std::vector<Target>& targets) {
+    return find_earlier(session, {kind.name, bases}, survey, targets);
+  };
+  const LocalTargets chosen = between.choose ? between.choose(survey, exported.list, find)
+                                             : LocalTargets{exported.list, find(exported.list.targets)};
+  int code = static_cast<int>(ExitCode::ok);
+  if (chosen.list.targets.empty()) {
+    keep_all(settings.output.dir, survey, chosen.earlier);
+  } else {
+    const TraceScene scene(exported.diffuse_scene, plan.blender_version);
+    SavedScene saved;
+    if (exported.blends) {
+      saved = save_scene_with_uvs(session, survey, exported.blends->own,
+                                  chosen.earlier.add_to(uvs_of(chosen.list.targets)));
+    }
+    log::info("{} {} x {} against Blender {}", kind.verb, counted(chosen.list.targets.size(), "lightmap"),
+              counted(bases.size(), "direction"), plan.blender_version);
+    code =
+        report(run_reference({scene, chosen.list, bases, chosen.earlier}, settings, plan, kind.verb, saved),
+               settings.output);
   }
-  log::info("{} {} x {} against Blender {}", kind.verb, counted(exported.list.targets.size(), "lightmap"),
-            counted(bases.size(), "direction"), plan.blender_version);
-  const int code =
-      report(run_reference({scene, exported.list, bases, earlier}, settings, plan, kind.verb, saved),
-             settings.output);
-  if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey);
+  if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey, chosen);
   made = made_from(config);
   add_scene_inputs(survey.inputs, made);
   add_lightmaps(made);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "config/resolve.h"
+#include "pipeline/local/local_targets.h"
 #include "pipeline/scene/make_targets.h"
 #include "scene/survey.h"
 
@@ -22,8 +23,11 @@ int trace_reference(const ResolvedConfig& config, RunReport& made);
 /// What a bake does between the steps of its tracing; each may be empty.
 struct BetweenTraceSteps {
   std::function<void(const SceneSurvey&)> surveyed;
-  std::function<int(const TargetList&)> preview;      // in place of all that writes; returns the exit code
-  std::function<void(const SceneSurvey&)> delivered;  // where no object failed
+  /// In place of all that writes; returns the exit code.
+  std::function<int(const SceneSurvey&, const TargetList&)> preview;
+  /// Those of the targets that are traced, with what stays.
+  std::function<LocalTargets(const SceneSurvey&, const TargetList&, const FindEarlier&)> choose;
+  std::function<void(const SceneSurvey&, const LocalTargets&)> delivered;  // where no object failed
 };
 
 /// The same as trace_reference() for a bake with engine embree.

@@ -20,6 +20,16 @@ namespace {
 
 constexpr int json_schema_version = 1;  // docs/json.schema.json
 
+/// "hall/": of a scene among several.
+std::string folder_in(const fs::path& folder, const RunReport& all) {
+  const fs::path relative = folder.lexically_normal().lexically_relative(all.output);
+  return (relative.empty() ? folder : relative).string() + "/";
+}
+
+void add_counts(RunReport& all) {
+  if (all.more.empty()) all.more = {{"lightmaps", 0}, {"failed", ordered_json::array()}};
+}
+
 }  // namespace
 
 RunFlags::RunFlags(CLI::App& command) : command_(command.get_name()) {
@@ -80,17 +90,22 @@ void add_scene_inputs(const std::vector<InputFile>& inputs, RunReport& report) {
 
 void add_scene(const RunReport& scene, RunReport& all) {
   if (scene.main_file.empty()) return;  // a plan
-  all.output = scene.output.parent_path();
   all.main_file = scene.main_file;
-  const std::string folder = scene.output.filename().string() + "/";
+  const std::string folder = folder_in(scene.output, all);
   for (const std::string& file : scene.files) all.files.push_back(folder + file);
-  if (all.more.empty()) all.more = {{"lightmaps", 0}, {"failed", ordered_json::array()}};
+  add_counts(all);
   all.more["lightmaps"] =
       all.more["lightmaps"].get<std::size_t>() + scene.more.at("lightmaps").get<std::size_t>();
   for (ordered_json failed : scene.more.at("failed")) {
     failed["key"] = folder + failed.at("key").get<std::string>();
     all.more["failed"].push_back(std::move(failed));
   }
+}
+
+void add_failed_scene(const fs::path& folder, const std::string& reason, RunReport& all) {
+  all.main_file = folder / "manifest.json";
+  add_counts(all);
+  all.more["failed"].push_back({{"key", folder_in(folder, all)}, {"reason", reason}});
 }
 
 void add_lightmaps(RunReport& report) {

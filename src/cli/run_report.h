@@ -54,9 +54,12 @@ class RunFlags {
 /// Adds the files that the scene read and that are there.
 void add_scene_inputs(const std::vector<InputFile>& inputs, RunReport& report);
 
-/// Adds one of several scenes, whose folders lie side by side: its files and keys get the folder's name in
-/// front.
+/// Adds one of several scenes to what was made in `all.output`: its files and keys get its folder's path in
+/// there in front.
 void add_scene(const RunReport& scene, RunReport& all);
+
+/// Adds a scene that failed as a whole.
+void add_failed_scene(const std::filesystem::path& folder, const std::string& reason, RunReport& all);
 
 /// Reads the manifest.json that a run wrote into `report.output`: its files, counts, failed objects.
 void add_lightmaps(RunReport& report);

@@ -17,7 +17,8 @@ struct SettingOverride {
   const Setting* setting = nullptr;
   SettingValue value;
   SettingSource source = SettingSource::fallback;
-  std::string where;  // "flag --samples", "RNMBAKE_SAMPLES", "project.toml:12", "default"
+  std::string where;       // "flag --samples", "RNMBAKE_SAMPLES", "project.toml:12", "default"
+  bool is_shared = false;  // by several scenes of a project: a pattern need not match in all of them
 };
 
 /// One [[override]]: values for the objects whose name or key matches one of the patterns.
@@ -25,6 +26,7 @@ struct ObjectOverride {
   std::vector<std::string> objects;
   std::string where;  // "project.toml:20"
   std::vector<SettingOverride> values;
+  bool is_shared = false;  // as above
 };
 
 /// SurfaceMaterials a variable up; nullopt where it is not set.

@@ -6,6 +6,7 @@
 #include "config/parse_toml.h"
 #include "config/value.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@ namespace rnmbake {
 
 namespace {
 
-constexpr std::string_view override_table = "override";
+constexpr std::string_view override_table = "override", scenes_table = "scenes";
 
 /// What every step needs to name a place in the file.
 struct Reader {
@@ -169,12 +170,57 @@ ObjectOverride read_override(const Reader& reader, const toml::table& table) {
   return one;
 }
 
-void read_overrides(const Reader& reader, const toml::node& node, ProjectFile& project) {
+/// `written`: as it stands between the brackets.
+const toml::array& list_of_tables(const Reader& reader, const toml::node& node, std::string_view name,
+                                  std::string_view written) {
   const toml::array* list = node.as_array();
-  if (list == nullptr || !list->is_homogeneous<toml::table>()) {
-    fail(ExitCode::usage, "{}: 'override' is a list of tables; write [[override]]", reader.where(node));
+  if (list == nullptr || !list->is_homogeneous<toml::table>())
+    fail(ExitCode::usage, "{}: '{}' is a list of tables; write [[{}]]", reader.where(node), name, written);
+  return *list;
+}
+
+std::vector<ObjectOverride> read_overrides(const Reader& reader, const toml::node& node,
+                                           std::string_view written) {
+  std::vector<ObjectOverride> overrides;
+  for (const toml::node& one : list_of_tables(reader, node, override_table, written))
+    overrides.push_back(read_override(reader, *one.as_table()));
+  return overrides;
+}
+
+ProjectScene read_scene(const Reader& reader, const toml::table& table) {
+  ProjectScene scene;
+  for (const auto& [key, node] : table) {
+    if (key.str() == override_table) {
+      scene.overrides = read_overrides(reader, node, "scenes.override");
+      continue;
+    }
+    const Setting* setting = find_setting(key.str());
+    if (setting == nullptr) {
+      auto keys = keys_where([](const Setting&) { return true; });
+      keys.emplace_back(override_table);
+      fail(ExitCode::usage, "{}: unknown key '{}' in [[scenes]]{}", reader.where(key), key.str(),
+           did_you_mean(key.str(), keys));
+    }
+    scene.values.push_back(read_value(reader, *setting, node));
+    if (setting->key == "file") scene.file = std::get<std::string>(scene.values.back().value);
   }
-  for (const toml::node& one : *list) project.overrides.push_back(read_override(reader, *one.as_table()));
+  if (scene.file.empty())
+    fail(ExitCode::usage, "{}: [[scenes]] names no scene; add file = \"hall.blend\"", reader.where(table));
+  return scene;
+}
+
+void read_scenes(const Reader& reader, const toml::node& node, ProjectFile& project) {
+  for (const toml::node& one : list_of_tables(reader, node, scenes_table, scenes_table))
+    project.scenes.push_back(read_scene(reader, *one.as_table()));
+}
+
+void refuse_two_lists(const ProjectFile& project) {
+  if (project.scenes.empty()) return;
+  for (const SettingOverride& value : project.values) {
+    if (value.setting->key == "file")
+      fail(ExitCode::usage, "{}: [scene] names a file beside [[scenes]]; make it a [[scenes]] of its own",
+           value.where);
+  }
 }
 
 [[noreturn]] void unknown_at_top(const Reader& reader, const toml::key& key, bool is_table) {
@@ -182,7 +228,7 @@ void read_overrides(const Reader& reader, const toml::node& node, ProjectFile& p
     fail(ExitCode::usage, "{}: '{}' stands outside of any table; move it to [{}]", reader.where(key),
          key.str(), setting->table);
   }
-  std::vector<std::string> names{std::string(override_table)};
+  std::vector<std::string> names{std::string(override_table), std::string(scenes_table)};
   for (const SettingTable& table : setting_tables()) names.emplace_back(table.name);
   fail(ExitCode::usage, "{}: unknown {} '{}'{}", reader.where(key), is_table ? "table" : "key", key.str(),
        did_you_mean(key.str(), names));
@@ -199,11 +245,17 @@ bool is_setting_table(std::string_view name) {
 
 ProjectFile parse_project(std::string_view text, const std::filesystem::path& file) {
   const Reader reader{file};
-  ProjectFile project{file, {}, {}};
+  ProjectFile project{file, {}, {}, {}};
   const toml::table root = parse_toml(text, file.string(), ExitCode::usage);
   for (const auto& [key, node] : root) {
     if (key.str() == override_table) {
-      read_overrides(reader, node, project);
+      project.overrides = read_overrides(reader, node, override_table);
+    } else if (key.str() == scenes_table) {
+      read_scenes(reader, node, project);
+    } else if (key.str() == "scene" && node.is_array()) {
+      fail(ExitCode::usage,
+           "{}: a list of scenes is written [[scenes]]; [scene] is what holds for all of them",
+           reader.where(key));
     } else if (is_setting_table(key.str())) {
       if (!node.is_table()) {
         fail(ExitCode::usage, "{}: '{}' is {}; write a table: [{}]", reader.where(key), key.str(),
@@ -214,7 +266,23 @@ ProjectFile parse_project(std::string_view text, const std::filesystem::path& fi
       unknown_at_top(reader, key, node.is_table() || node.is_array_of_tables());
     }
   }
+  refuse_two_lists(project);
   return project;
+}
+
+ProjectFile ProjectFile::of_scene(const ProjectScene& scene) const {
+  ProjectFile one{file, values, overrides, {scene}};
+  const auto sets = [&](std::string_view key) {
+    return std::ranges::any_of(scene.values, [&](const SettingOverride& v) { return v.setting->key == key; });
+  };
+  if (sets("resolution") && !sets("texels_per_unit"))  // as an [[override]] that does
+    std::erase_if(one.values, [](const SettingOverride& v) { return v.setting->key == "texels_per_unit"; });
+  const bool has_others = scenes.size() > 1;
+  for (SettingOverride& value : one.values) value.is_shared = has_others;
+  for (ObjectOverride& shared : one.overrides) shared.is_shared = has_others;
+  one.values.insert(one.values.end(), scene.values.begin(), scene.values.end());
+  one.overrides.insert(one.overrides.end(), scene.overrides.begin(), scene.overrides.end());
+  return one;
 }
 
 ProjectFile read_project(const std::filesystem::path& file) {

@@ -9,10 +9,21 @@
 
 namespace rnmbake {
 
+/// One [[scenes]] of a project file: what holds for that scene alone.
+struct ProjectScene {
+  std::filesystem::path file;  // .blend, .glb, .gltf
+  std::vector<SettingOverride> values;
+  std::vector<ObjectOverride> overrides;  // [[scenes.override]], after those of all scenes
+};
+
 struct ProjectFile {
   std::filesystem::path file;
   std::vector<SettingOverride> values;
   std::vector<ObjectOverride> overrides;  // in the file's order
+  std::vector<ProjectScene> scenes = {};  // none: the one of [scene]
+
+  /// The project as it holds for one scene of its list, which then has that scene alone.
+  [[nodiscard]] ProjectFile of_scene(const ProjectScene& scene) const;
 };
 
 /// Throws Error(io) where the file cannot be read and Error(usage) "project.toml:7: ..." where it is not

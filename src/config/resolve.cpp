@@ -78,6 +78,10 @@ const std::string& ResolvedConfig::provenance(std::string_view key) const {
   return given(key).where;
 }
 
+bool ResolvedConfig::is_shared(std::string_view key) const {
+  return given(key).is_shared;
+}
+
 /// texels_per_unit normally decides alone. But who types --resolution 64 over a project that chooses sizes by
 /// surface asks for 64: of the two, the one from the stronger source counts.
 void ResolvedConfig::let_stronger_resolution_win() {
@@ -201,8 +205,10 @@ std::vector<UnmatchedPattern> unmatched_patterns(const ResolvedConfig& config,
   if (config.provenance("objects") != "default") {
     add(config.globals.scene.objects, config.provenance("objects"));
   }
-  add(config.globals.scene.exclude, config.provenance("exclude"));
-  for (const ObjectOverride& override_ : config.overrides()) add(override_.objects, override_.where);
+  if (!config.is_shared("exclude")) add(config.globals.scene.exclude, config.provenance("exclude"));
+  for (const ObjectOverride& override_ : config.overrides()) {
+    if (!override_.is_shared) add(override_.objects, override_.where);
+  }
   return all;
 }
 

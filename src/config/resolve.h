@@ -29,6 +29,8 @@ class ResolvedConfig {
   [[nodiscard]] const std::vector<SettingOverride>& values() const { return values_; }
   /// "flag --samples", "RNMBAKE_SAMPLES", "project.toml:12" or "default".
   [[nodiscard]] const std::string& provenance(std::string_view key) const;
+  /// Whether the value holds for several scenes of a project.
+  [[nodiscard]] bool is_shared(std::string_view key) const;
   [[nodiscard]] const std::vector<ObjectOverride>& overrides() const { return overrides_; }
   /// Whether a flag or an environment variable takes that setting away from the overrides.
   [[nodiscard]] bool fixed_for_all(const Setting& setting) const;
@@ -62,7 +64,8 @@ class ResolvedConfig {
 struct UnmatchedPattern {
   std::string pattern, where;
 };
-/// Over [scene] objects, exclude and every [[override]]. The default "*" is never in the list.
+/// Over [scene] objects, exclude and every [[override]]. The default "*" is never in the list, nor what is
+/// excluded from or overridden in several scenes.
 [[nodiscard]] std::vector<UnmatchedPattern> unmatched_patterns(const ResolvedConfig& config,
                                                                const std::vector<std::string>& names);
 

@@ -47,6 +47,7 @@ struct Setting {
   std::string_view empty_means;           // what 0, "" or [] stands for where it has a meaning of its own
   std::string_view no_path;               // path: a word that is none, "" where every text is a path
   bool per_object = false;                // may stand in an [[override]]
+  bool has_effect = true;                 // on what comes out; else only on how it is made
   std::vector<Purpose> purposes;          // whose flag it is; none: everybody's
 
   [[nodiscard]] bool is_list() const {

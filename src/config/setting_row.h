@@ -151,6 +151,11 @@ class Row {
     setting_.no_path = word;
     return *this;
   }
+  /// Whatever its value, the same comes out.
+  Row without_effect() {
+    setting_.has_effect = false;
+    return *this;
+  }
   Row program() {
     setting_.kind = SettingKind::program;
     return *this;

@@ -48,7 +48,7 @@ std::vector<Setting> make_settings_table() {
   using Output = OutputSettings;
   using Run = RunSettings;
   return {
-      scene("file", &Scene::file, "scene to bake: .blend, .glb or .gltf"),
+      scene("file", &Scene::file, "scene to bake: .blend, .glb or .gltf").without_effect(),
       scene("scene", &Scene::scene, "scene of the file to bake").empty_means("the one it was saved with"),
       scene("view_layer", &Scene::view_layer, "view layer of the scene to bake")
           .empty_means("the one it was saved with"),
@@ -154,7 +154,8 @@ std::vector<Setting> make_settings_table() {
           .empty_means("the Blender that wrote the scene's data")
           .only({Purpose::reference}),
 
-      output("dir", &Output::dir, "folder for lightmaps and manifest.json; made when missing"),
+      output("dir", &Output::dir, "folder for lightmaps and manifest.json; made when missing")
+          .without_effect(),
       output("layout", &Output::layout, "one EXR with layers for each object, or one EXR for each basis")
           .only({Purpose::bake, Purpose::reference}),
       output("depth", &Output::depth, "half (16 bits) or float (32 bits) for each channel")
@@ -175,7 +176,8 @@ std::vector<Setting> make_settings_table() {
       output("save_scene", &Output::save_scene,
              "save a copy of the scene with the unwrapped UVs: when there are any, never, always")
           .only({Purpose::bake, Purpose::reference}),
-      output("keep_temporary", &Output::keep_temporary, "keep what Blender was given and returned"),
+      output("keep_temporary", &Output::keep_temporary, "keep what Blender was given and returned")
+          .without_effect(),
 
       run("blender", &Run::blender, "Blender to use: a path or a name in PATH")
           .program()
@@ -185,21 +187,26 @@ std::vector<Setting> make_settings_table() {
       run("jobs", &Run::jobs, "Blender processes at a time")
           .range(0, 1024)
           .empty_means("automatic")
-          .only({Purpose::bake, Purpose::validate}),
+          .only({Purpose::bake, Purpose::validate})
+          .without_effect(),
       run("threads", &Run::threads, "threads of each Blender, and of the tracer")
           .range(0, 1024)
-          .empty_means("all cores, shared among the jobs"),
+          .empty_means("all cores, shared among the jobs")
+          .without_effect(),
       run("timeout", &Run::timeout, "end a Blender that makes no progress for so long")
           .range(1, 604'800)
-          .unit("seconds"),
+          .unit("seconds")
+          .without_effect(),
       run("launch_timeout", &Run::launch_timeout, "end a Blender that takes so long, progress or not")
           .range(0, 31'536'000)
           .unit("seconds")
-          .empty_means("no limit"),
+          .empty_means("no limit")
+          .without_effect(),
       run("memory_max", &Run::memory_max, "end a Blender that uses more memory")
           .range(0, 16'777'216)
           .unit("MiB")
-          .empty_means("no limit"),
+          .empty_means("no limit")
+          .without_effect(),
       run("sandbox", &Run::sandbox,
           "run Blender without network, home folder and other files (bubblewrap), for scenes of strangers"),
       run("sandbox_read", &Run::sandbox_read,
@@ -210,17 +217,21 @@ std::vector<Setting> make_settings_table() {
           .only({Purpose::bake}),
       run("retries", &Run::retries, "times that a failed launch is tried again")
           .range(0, 100)
-          .only({Purpose::bake, Purpose::validate}),
+          .only({Purpose::bake, Purpose::validate})
+          .without_effect(),
       run("cache", &Run::cache, "folder for results that later runs need not make again; none keeps nothing")
           .no_path(no_cache)
-          .empty_means("$XDG_CACHE_HOME/rnmbake, else ~/.cache/rnmbake"),
+          .empty_means("$XDG_CACHE_HOME/rnmbake, else ~/.cache/rnmbake")
+          .without_effect(),
       run("cache_limit", &Run::cache_limit, "what was not used for longest goes when the cache is larger")
           .range(0, 1'073'741'824)
           .unit("MiB")
-          .empty_means("no limit"),
+          .empty_means("no limit")
+          .without_effect(),
       run("lock_wait", &Run::lock_wait, "wait so long for another run that writes to the same folder")
           .range(0, 31'536'000)
-          .unit("seconds"),
+          .unit("seconds")
+          .without_effect(),
   };
 }
 

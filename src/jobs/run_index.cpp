@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_commands = 4096;  // remembered; then all are forgotten
 
 /// Flags of which the whole program has to know.
-constexpr std::array<std::string_view, 12> asks_for_more{"--why",          "--dry-run", "--force", "--json",
-                                                         "--log-format",   "--depfile", "-h",      "--help",
-                                                         "--print-config", "--version", "--time",  "-v"};
+constexpr std::array<std::string_view, 13> asks_for_more{
+    "--why",  "--dry-run", "--force",        "--json",    "--log-format", "--depfile", "-h",
+    "--help", "--prune",   "--print-config", "--version", "--time",       "-v"};
 
 bool is_one_of(std::string_view word, const auto& flags) {
   return std::ranges::find(flags, word.substr(0, word.find('='))) != flags.end();
@@ -103,7 +103,11 @@ void remember_run(const std::vector<fs::path>& records) {
       make_folders(file.parent_path());
     }
     std::string lines;
-    for (const fs::path& record : records) lines += fs::absolute(record).string() + "\n";
+    for (const fs::path& path : records) {
+      const auto record = read_record(path);
+      if (!record) return;
+      lines += hash128_hex(record->settings) + ' ' + fs::absolute(path).string() + '\n';
+    }
     write_atomically(file, lines);
   } catch (const std::exception&) {
     return;  // the next run looks for itself
@@ -117,10 +121,11 @@ std::optional<UnchangedRun> unchanged_run(std::span<const char* const> words) no
     if (file.empty() || !fs::exists(file)) return std::nullopt;
     UnchangedRun run;
     std::istringstream lines(read_text(file));
-    for (std::string line; std::getline(lines, line);) {
-      auto record = read_record(line);
-      if (!record || !reasons_to_run(*record, record->settings).empty()) return std::nullopt;
-      run.records.emplace_back(line);
+    for (std::string settings, path; lines >> settings && lines.get() && std::getline(lines, path);) {
+      auto record = read_record(path);
+      const bool is_ours = record && hash128_hex(record->settings) == settings;  // else another command's
+      if (!is_ours || !reasons_to_run(*record, record->settings).empty()) return std::nullopt;
+      run.records.emplace_back(path);
     }
     return run.records.empty() ? std::nullopt : std::optional(std::move(run));
   } catch (const std::exception&) {

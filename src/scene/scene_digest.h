@@ -13,6 +13,7 @@ namespace rnmbake {
 /// apart by `hash`, hexadecimal digits that are compared as they are.
 struct DigestEntry {
   std::string what, hash;
+  std::vector<std::string> uses = {};  // names of parts that it points to, sorted; in no hash
   auto operator<=>(const DigestEntry&) const = default;
 };
 

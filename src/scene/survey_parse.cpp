@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "scene/survey_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -128,14 +129,14 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
 }
 
 SceneDigest read_digest(const json& list) {
-  std::map<std::string, std::string> parts;
-  for (const json& entry : list) {
-    const auto& what = entry.at("what").get_ref<const std::string&>();
-    if (!parts.emplace(what, entry.at("hash").get<std::string>()).second)
-      fail(ExitCode::invalid_input, "{}: twice in the digest of the scene", what);
-  }
   SceneDigest digest;
-  for (const auto& [what, hash] : parts) digest.entries.push_back({what, hash});
+  for (const json& entry : list)
+    digest.entries.push_back({entry.at("what").get<std::string>(), entry.at("hash").get<std::string>(),
+                              entry.value("uses", std::vector<std::string>{})});
+  std::ranges::sort(digest.entries, {}, &DigestEntry::what);
+  const auto twice = std::ranges::adjacent_find(digest.entries, {}, &DigestEntry::what);
+  if (twice != digest.entries.end())
+    fail(ExitCode::invalid_input, "{}: twice in the digest of the scene", twice->what);
   return digest;
 }
 

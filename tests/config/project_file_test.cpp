@@ -107,6 +107,41 @@ uv = "UV2"
   EXPECT_EQ(project.overrides[1].values.at(0).where, "project.toml:8");
 }
 
+TEST(ProjectFile, EachOfSeveralScenesHasWhatHoldsForAllAndItsOwn) {
+  const ProjectFile project = parse_project(R"([scene]
+exclude = "proxy_*"
+[bake]
+samples = 64
+texels_per_unit = 8
+[[override]]
+objects = "floor*"
+samples = 128
+[[scenes]]
+file = "hall.blend"
+[[scenes]]
+file = "../yard.blend"
+dir = "yard-maps"
+resolution = 32
+[[scenes.override]]
+objects = "gate"
+samples = 256
+)",
+                                            "game/project.toml");
+  ASSERT_EQ(project.scenes.size(), 2U);
+  const ProjectFile hall = project.of_scene(project.scenes[0]), yard = project.of_scene(project.scenes[1]);
+  EXPECT_EQ(value(hall, "file"), SettingValue(std::string("game/hall.blend")));
+  EXPECT_EQ(value(hall, "texels_per_unit"), SettingValue(8.0));
+  EXPECT_EQ(hall.overrides.size(), 1U);
+  EXPECT_EQ(value(yard, "file"), SettingValue(std::string("yard.blend")));
+  EXPECT_EQ(value(yard, "dir"), SettingValue(std::string("game/yard-maps")));
+  EXPECT_EQ(value(yard, "samples"), SettingValue(std::int64_t{64}));
+  EXPECT_THROW((void)value(yard, "texels_per_unit"), std::logic_error) << "its own resolution turns it off";
+  ASSERT_EQ(yard.overrides.size(), 2U);
+  EXPECT_TRUE(yard.overrides[0].is_shared);
+  EXPECT_FALSE(yard.overrides[1].is_shared);
+  EXPECT_EQ(yard.overrides[1].where, "game/project.toml:15");
+}
+
 struct BadProject {
   const char *name, *text, *message;
 };
@@ -119,42 +154,52 @@ TEST_P(BadProjects, NameLineFaultAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     ProjectFile, BadProjects,
-    testing::Values(BadProject{"UnknownKey", "[bake]\n\nsampels = 3\n",
-                               "3: unknown key 'sampels' in [bake], did you mean 'samples'?"},
-                    BadProject{"UnknownKeyWithoutHint", "[bake]\nxyzzyplugh = 3\n",
-                               "2: unknown key 'xyzzyplugh' in [bake]"},
-                    BadProject{"UnknownTable", "[bakee]\n", "1: unknown table 'bakee', did you mean 'bake'?"},
-                    BadProject{"OtherTablesKey", "[output]\nsamples = 3\n",
-                               "2: 'samples' does not belong in [output]; move it to [bake]"},
-                    BadProject{"OutsideOfTables", "samples = 3\n",
-                               "1: 'samples' stands outside of any table; move it to [bake]"},
-                    BadProject{"TableAsValue", "bake = 3\n",
-                               "1: 'bake' is a whole number; write a table: [bake]"},
-                    BadProject{"TextForNumber", "[bake]\nsamples = \"3\"\n",
-                               "2: 'samples' is a text; give a whole number from 1 to 16777216"},
-                    BadProject{"RealForWhole", "[bake]\nsamples = 3.5\n",
-                               "2: 'samples' is a number; give a whole number from 1 to 16777216"},
-                    BadProject{"NumberForText", "[bake]\nuv = 3\n", "2: 'uv' is a whole number; give text"},
-                    BadProject{"NumberForBool", "[bake]\nflip_green = 1\n",
-                               "2: 'flip_green' is a whole number; give true or false"},
-                    BadProject{"ListOfNumbers", "[scene]\nobjects = [1]\n",
-                               "2: 'objects' is a list; give a list of texts"},
-                    BadProject{"TooSmall", "[bake]\nresolution = 3\n",
-                               "2: 3 does not fit 'resolution'; give a whole number from 4 to 16384"},
-                    BadProject{"Infinite", "[bake]\nclamp = inf\n",
-                               "2: inf does not fit 'clamp'; give a number from 0 to 1000000000"},
-                    BadProject{"BadChoice", "[output]\ndepth = \"flaot\"\n",
-                               "2: 'flaot' does not fit 'depth'; give half or float, did you mean 'float'?"},
-                    BadProject{"OverrideWithoutObjects", "[[override]]\nsamples = 3\n",
-                               "1: [[override]] names no objects; add objects = \"floor*\""},
-                    BadProject{"OverrideOfNothing", "[[override]]\nobjects = []\n",
-                               "2: 'objects' is not a list of names; give a name or a list of names"},
-                    BadProject{"OverrideOfGlobal", "[[override]]\nobjects = \"a\"\nbounces = 3\n",
-                               "3: 'bounces' holds for the whole bake; move it to [bake]"},
-                    BadProject{"OverrideUnknown", "[[override]]\nobjects = \"a\"\nsampels = 3\n",
-                               "3: unknown key 'sampels' in [[override]], did you mean 'samples'?"},
-                    BadProject{"SingleOverride", "[override]\nobjects = \"a\"\n",
-                               "1: 'override' is a list of tables; write [[override]]"}),
+    testing::Values(
+        BadProject{"UnknownKey", "[bake]\n\nsampels = 3\n",
+                   "3: unknown key 'sampels' in [bake], did you mean 'samples'?"},
+        BadProject{"UnknownKeyWithoutHint", "[bake]\nxyzzyplugh = 3\n",
+                   "2: unknown key 'xyzzyplugh' in [bake]"},
+        BadProject{"UnknownTable", "[bakee]\n", "1: unknown table 'bakee', did you mean 'bake'?"},
+        BadProject{"OtherTablesKey", "[output]\nsamples = 3\n",
+                   "2: 'samples' does not belong in [output]; move it to [bake]"},
+        BadProject{"OutsideOfTables", "samples = 3\n",
+                   "1: 'samples' stands outside of any table; move it to [bake]"},
+        BadProject{"TableAsValue", "bake = 3\n", "1: 'bake' is a whole number; write a table: [bake]"},
+        BadProject{"TextForNumber", "[bake]\nsamples = \"3\"\n",
+                   "2: 'samples' is a text; give a whole number from 1 to 16777216"},
+        BadProject{"RealForWhole", "[bake]\nsamples = 3.5\n",
+                   "2: 'samples' is a number; give a whole number from 1 to 16777216"},
+        BadProject{"NumberForText", "[bake]\nuv = 3\n", "2: 'uv' is a whole number; give text"},
+        BadProject{"NumberForBool", "[bake]\nflip_green = 1\n",
+                   "2: 'flip_green' is a whole number; give true or false"},
+        BadProject{"ListOfNumbers", "[scene]\nobjects = [1]\n",
+                   "2: 'objects' is a list; give a list of texts"},
+        BadProject{"TooSmall", "[bake]\nresolution = 3\n",
+                   "2: 3 does not fit 'resolution'; give a whole number from 4 to 16384"},
+        BadProject{"Infinite", "[bake]\nclamp = inf\n",
+                   "2: inf does not fit 'clamp'; give a number from 0 to 1000000000"},
+        BadProject{"BadChoice", "[output]\ndepth = \"flaot\"\n",
+                   "2: 'flaot' does not fit 'depth'; give half or float, did you mean 'float'?"},
+        BadProject{"OverrideWithoutObjects", "[[override]]\nsamples = 3\n",
+                   "1: [[override]] names no objects; add objects = \"floor*\""},
+        BadProject{"OverrideOfNothing", "[[override]]\nobjects = []\n",
+                   "2: 'objects' is not a list of names; give a name or a list of names"},
+        BadProject{"OverrideOfGlobal", "[[override]]\nobjects = \"a\"\nbounces = 3\n",
+                   "3: 'bounces' holds for the whole bake; move it to [bake]"},
+        BadProject{"OverrideUnknown", "[[override]]\nobjects = \"a\"\nsampels = 3\n",
+                   "3: unknown key 'sampels' in [[override]], did you mean 'samples'?"},
+        BadProject{"SceneWithoutFile", "[[scenes]]\nsamples = 3\n",
+                   "1: [[scenes]] names no scene; add file = \"hall.blend\""},
+        BadProject{"SceneUnknown", "[[scenes]]\nfile = 'a.blend'\nsampels = 3\n",
+                   "3: unknown key 'sampels' in [[scenes]], did you mean 'samples'?"},
+        BadProject{"SceneAndScenes", "[scene]\nfile = 'b.blend'\n[[scenes]]\nfile = 'a.blend'\n",
+                   "2: [scene] names a file beside [[scenes]]; make it a [[scenes]] of its own"},
+        BadProject{"ListOfScene", "[[scene]]\nfile = 'b.blend'\n",
+                   "1: a list of scenes is written [[scenes]]; [scene] is what holds for all of them"},
+        BadProject{"SingleScenes", "[scenes]\nfile = 'b.blend'\n",
+                   "1: 'scenes' is a list of tables; write [[scenes]]"},
+        BadProject{"SingleOverride", "[override]\nobjects = \"a\"\n",
+                   "1: 'override' is a list of tables; write [[override]]"}),
     [](const auto& one) { return one.param.name; });
 
 TEST(ProjectFile, WhatIsNotTomlNamesTheLine) {

@@ -232,5 +232,22 @@ TEST(Environment, AMistypedVariableIsNamed) {
   }
 }
 
+TEST(Resolve, PatternsOfSeveralScenesNeedNotMatchInEach) {
+  const std::string project =
+      "[scene]\nexclude = 'proxy'\n[[override]]\nobjects = 'floor'\nsamples = 2\n"
+      "[[scenes]]\nfile = 'a.blend'\n[[scenes.override]]\nobjects = 'gate'\nsamples = 3\n"
+      "[[scenes]]\nfile = 'b.blend'\nexclude = 'sky'\n";
+  const ProjectFile read = parse_project(project, "project.toml");
+  const auto patterns = [&](std::size_t scene) {
+    std::vector<std::string> all;
+    for (const UnmatchedPattern& one :
+         unmatched_patterns(resolve(read.of_scene(read.scenes[scene]), {}, {}), {"wall"}))
+      all.push_back(one.pattern);
+    return all;
+  };
+  EXPECT_EQ(patterns(0), std::vector<std::string>{"gate"});
+  EXPECT_EQ(patterns(1), std::vector<std::string>{"sky"});
+}
+
 }  // namespace
 }  // namespace rnmbake

@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 
-from harness import LIMIT_SECONDS, OK, SCENES, binary, blender, environment, run_blender
+from harness import INVALID_INPUT, LIMIT_SECONDS, OK, SCENES, binary, blender, environment, run_blender
 
 WRAPPER = """#!/bin/bash
 for word in "$@"; do case $word in *_entry.py) basename "$word" >> "$LAUNCHES";; esac; done
@@ -176,6 +176,36 @@ class Traced(Reuse):
         self.assertIn("light 'Area'", self.bake(*self.EMBREE, "--why")[1])
         self.assertFalse(set(traced.items()) & set(self.pictures().items()))
 
+    def test_another_scene_or_command_in_the_folder_is_no_reason_to_rest(self):
+        where = {**self.environment(), "XDG_CACHE_HOME": str(self.folder / "own")}
+        where.pop("RNMBAKE_CACHE")
+
+        def said(*flags):
+            done = subprocess.run(self.command(*self.EMBREE, *flags), env=where, stdin=subprocess.DEVNULL,
+                                  capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+            self.assertEqual(done.returncode, OK, done.stderr)
+            return done.stderr
+
+        first = said("--seed", "1")
+        self.assertNotIn("up to date", first)
+        self.assertIn("up to date", said("--seed", "1"))
+        self.assertNotIn("up to date", said("--seed", "2"))
+        self.assertIn('because setting seed = 1', said("--seed", "1"))  # the folder holds the other seed's
+        copy = self.scene.with_name("copy.blend")
+        shutil.copy(self.scene, copy)
+        self.scene = copy
+        self.assertIn("copy.blend", said("--seed", "1"))
+
+    def test_what_left_the_scene_is_pruned_when_asked_for(self):
+        self.bake(*self.EMBREE)
+        self.change("no box")
+        self.bake(*self.EMBREE)
+        self.assertIn("box.exr", self.pictures())
+        launches, said = self.bake(*self.EMBREE, "--prune")
+        self.assertEqual((launches, sorted(self.pictures())), ([], ["floor.exr", "wall.exr"]))
+        self.assertIn("1 file deleted (box.exr)", said)
+        self.assertNotIn("deleted", self.bake(*self.EMBREE, "--prune")[1])
+
     def test_an_exported_scene_needs_no_blender(self):
         exported = self.folder / "room.rnmscene"
         done = subprocess.run([binary(), "export", str(self.scene), "-o", str(exported), *FEW[:2]], env=environment(),
@@ -194,6 +224,110 @@ class Traced(Reuse):
         self.assertEqual((done.returncode, done.stdout.splitlines()),
                          (OK, [f"{name}: 8 samples to bake" for name in ("floor", "wall", "box")]))
         self.assertFalse((self.folder / "out").exists())
+
+
+class Local(Reuse):
+    """--assume-local: the wall's picture changes; the floor touches the wall, the box is 0.7 units away."""
+    EMBREE = Traced.EMBREE
+
+    def assumed(self):
+        manifest = json.loads((self.folder / "out" / "manifest.json").read_text(encoding="utf-8"))
+        return [entry["key"] for entry in manifest["objects"] if entry.get("assumed_local")]
+
+    def changed(self, before):
+        return sorted(name for name, digest in self.pictures().items() if before.get(name) != digest)
+
+    def test_what_is_far_from_a_change_stays_until_it_is_asked_for(self):
+        self.bake(*self.EMBREE)
+        before = self.pictures()
+        self.change("picture")
+        said = self.bake(*self.EMBREE, "--assume-local", "0.5")[1]
+        self.assertIn("1 of 3 lightmaps stay", said)
+        self.assertIn("1 lightmap assumed to be as before", said)
+        self.assertEqual((self.changed(before), self.assumed()), (["floor.exr", "wall.exr"], ["box"]))
+        self.assertEqual(self.bake(*self.EMBREE, "--assume-local", "0.5")[0], [])
+        after = self.pictures()
+        said = self.bake(*self.EMBREE)[1]
+        self.assertIn("because 1 lightmap assumed to be as before", said)
+        self.assertEqual((self.changed(after), self.assumed()), (["box.exr"], []))
+        right = self.pictures()
+        self.bake(*self.EMBREE, out="afresh")
+        self.assertEqual(self.pictures("afresh"), right)
+
+    def test_nothing_near_any_object_bakes_nothing(self):
+        self.bake(*self.EMBREE)
+        before = self.pictures()
+        self.change("selection")
+        self.assertIn("3 of 3 lightmaps stay", self.bake(*self.EMBREE, "--assume-local", "0.5")[1])
+        self.assertEqual((self.pictures(), self.assumed()), (before, []))
+        self.assertEqual(self.bake(*self.EMBREE)[0], [])  # nothing was assumed
+
+    def test_what_reaches_everything_bakes_all(self):
+        self.bake(*self.EMBREE)
+        before = self.pictures()
+        self.change("lamp")
+        self.bake(*self.EMBREE, "--assume-local", "0.5")
+        self.assertEqual((self.changed(before), self.assumed()), (sorted(before), []))
+        self.change("picture")
+        said = self.bake(*self.EMBREE, "--seed", "3", "--assume-local", "0.5")[1]
+        self.assertIn("everything is baked, since setting seed = 3", said)
+        self.assertEqual(self.assumed(), [])
+
+    def test_a_lightmap_that_is_not_there_is_baked(self):
+        self.bake(*self.EMBREE)
+        self.change("picture")
+        (self.folder / "out" / "box.exr").write_text("painted over", encoding="utf-8")
+        self.bake(*self.EMBREE, "--assume-local", "0.5")
+        self.assertEqual((self.assumed(), len(self.pictures())), ([], 3))
+
+    def test_cycles_bakes_what_was_assumed_alone(self):
+        self.bake(*FEW)
+        self.change("picture")
+        self.assertIn("1 of 3 lightmaps stay", self.bake(*FEW, "--assume-local", "0.5")[1])
+        self.assertIn("2 of 3 targets baked before", self.bake(*FEW)[1])
+        self.assertEqual(self.assumed(), [])
+
+
+class Scenes(Reuse):
+    """A project that lists several."""
+
+    def project(self, *names):
+        project = self.folder / "scene" / "game.toml"
+        project.write_text('[bake]\nresolution = 16\nsamples = 8\nbounces = 2\nengine = "embree"\n[output]\nsave_scene = "never"\n'
+                           f'dir = "maps"\n[run]\nblender = "{self.wrapper}"\n[[override]]\nobjects = "box"\nsamples = 16\n'
+                           + "".join(f'[[scenes]]\nfile = "{name}.blend"\n' for name in names), encoding="utf-8")
+        return project
+
+    def run_project(self, project, *flags):
+        self.launches.write_text("", encoding="utf-8")
+        done = subprocess.run([binary(), "bake", str(project), *flags], env=self.environment(), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        return done, self.launches.read_text(encoding="utf-8").split()
+
+    def test_all_are_baked_and_one_that_fails_stops_none(self):
+        run_blender(SCENES / "reuse_scene.py", self.scene.with_name("hut.blend"), "no box", scene=self.scene)
+        self.scene.with_name("broken.blend").write_text("no scene", encoding="utf-8")
+        done, _ = self.run_project(self.project("broken", "gone", "hut", "room"), "--json")
+        answer = json.loads(done.stdout)
+        self.assertEqual((done.returncode, answer["exit_code"], answer["lightmaps"]), (INVALID_INPUT, INVALID_INPUT, 5))
+        self.assertEqual([one["key"] for one in answer["failed"]], ["broken/", "gone/"])
+        self.assertIn("hut/floor.exr", answer["files"])
+        self.assertIn("4 scenes in", done.stderr)
+        self.assertIn("not baked: ", done.stderr)
+        maps = self.scene.with_name("maps")
+        self.assertEqual(sorted(file.name for file in (maps / "hut").glob("*.exr")), ["floor.exr", "wall.exr"])
+        self.assertEqual(len(list((maps / "room").glob("*.exr"))), 3)
+
+    def test_nothing_starts_no_blender(self):
+        shutil.copy(self.scene, self.scene.with_name("hut.blend"))
+        project = self.project("hut", "room")
+        self.assertEqual(self.run_project(project)[0].returncode, OK)
+        done, launches = self.run_project(project)
+        self.assertEqual((launches, done.stderr.count("up to date")), ([], 2))
+        self.change("lamp")
+        done, launches = self.run_project(project)
+        self.assertEqual((done.stderr.count("up to date"), "lambert_entry.py" in launches), (1, True))
+        self.assertEqual(self.run_project(project, "--file", "hut.blend")[0].stderr.count("up to date"), 1)
 
 
 class Killed(Reuse):

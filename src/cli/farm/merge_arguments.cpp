@@ -11,7 +11,7 @@ std::vector<std::string> merge_arguments(const ResolvedConfig& config, const std
   std::vector<std::string> arguments;
   if (!scene_argument.empty()) arguments.push_back(scene_argument);
   for (const SettingOverride& one : config.values()) {
-    const bool is_argument = one.setting->key == "file" && !scene_argument.empty();
+    const bool is_argument = one.where == "argument SCENE";
     const bool is_typed = one.source == SettingSource::flag || one.source == SettingSource::environment;
     if (!is_typed || is_argument) continue;
     for (std::string& word : flag_words(one)) arguments.push_back(std::move(word));

@@ -1,9 +1,11 @@
 #include "cli/flags/settings_flags.h"
 
 #include "base/error.h"
+#include "base/object_notes.h"
 #include "config/document.h"
 #include "config/value.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -61,6 +63,29 @@ std::string group_of(const Setting& setting) {
   return "Options";
 }
 
+namespace fs = std::filesystem;
+
+/// Whether a flag means the scene of a project: by its path, or its name alone.
+bool is_same(const fs::path& wanted, const fs::path& scene) {
+  return fs::absolute(wanted).lexically_normal() == fs::absolute(scene).lexically_normal() ||
+         wanted == scene.filename();
+}
+
+std::string files_in(const ProjectFile& project) {
+  std::vector<std::string> names;
+  for (const ProjectScene& scene : project.scenes) names.push_back(scene.file.filename().string());
+  return first_names(names, 8);
+}
+
+/// Of a project that lists its scenes: whether the output folder is not that scene's own.
+bool is_in_shared_folder(const ProjectFile& project, const ResolvedConfig& config) {
+  if (project.scenes.empty()) return false;
+  const std::string& where = config.provenance("dir");
+  return std::ranges::none_of(project.scenes.front().values, [&](const SettingOverride& one) {
+    return one.setting->key == "dir" && one.where == where;
+  });
+}
+
 std::string joined(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
@@ -107,65 +132,95 @@ std::vector<SettingOverride> SettingsFlags::given_flags() const {
   return flags;
 }
 
-std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
-  return resolve(scene_->count() > 0 ? scene_->results().back() : "", out);
-}
-
 void SettingsFlags::take_several_scenes(CLI::App& command) {
   const std::string help = scene_->get_description();
   command.remove_option(scene_);  // one that takes a single word cannot be told to take more
   scene_ = command.add_option("SCENE", scenes_, help)->type_name("");
 }
 
+std::vector<ProjectFile> SettingsFlags::projects_of(const std::string& argument) const {
+  if (argument.empty() || !is_project_path(argument)) return {{}};
+  const ProjectFile project = read_project(argument);
+  if (project.scenes.empty()) return {project};
+  std::vector<SettingOverride> given = read_environment(process_environment());
+  for (SettingOverride& flag : given_flags()) given.push_back(std::move(flag));
+  fs::path wanted;
+  for (const SettingOverride& one : given) {
+    if (one.setting->key == "file") wanted = std::get<std::string>(one.value);
+  }
+  std::vector<ProjectFile> chosen;
+  for (const ProjectScene& scene : project.scenes) {
+    if (wanted.empty() || is_same(wanted, scene.file)) chosen.push_back(project.of_scene(scene));
+  }
+  if (chosen.empty())
+    fail(ExitCode::usage, "{} lists no scene '{}'; there are {}", argument, wanted.string(),
+         files_in(project));
+  return chosen;
+}
+
 std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
-  const std::vector<std::string> scenes =
+  const std::vector<std::string> arguments =
       scene_->count() > 0 ? scene_->results() : std::vector<std::string>{""};
   std::vector<ResolvedConfig> all;
-  std::set<std::string> names;
-  for (const std::string& scene : scenes) {
-    auto config = resolve(scene, std::cout);
-    if (!config) return {};
-    const std::string name = std::filesystem::path(scene).stem().string();
-    if (scenes.size() > 1) {
-      if (!names.insert(name).second)
+  std::set<fs::path> folders;
+  for (const std::string& argument : arguments) {
+    for (const ProjectFile& project : projects_of(argument)) {
+      auto config = resolve(project, argument, std::cout);
+      if (!config) continue;
+      fs::path& dir = config->globals.output.dir;
+      if (!dir.empty() && arguments.size() > 1) dir /= fs::path(argument).stem();
+      if (!dir.empty() && is_in_shared_folder(project, *config)) dir /= config->globals.scene.file.stem();
+      if (!dir.empty() && !folders.insert(fs::absolute(dir).lexically_normal()).second)
         fail(ExitCode::usage,
-             "two of the scenes are called '{}' and would write into one folder; bake one after the other, "
-             "each "
-             "with an --output of its own",
-             name);
-      if (!config->globals.output.dir.empty()) config->globals.output.dir /= name;
+             "two of the scenes would write into {}, {} and another; bake one after the other, each with an "
+             "--output of its own, or give one of a project's [[scenes]] a dir of its own",
+             dir.string(), config->globals.scene.file.string());
+      all.push_back(std::move(*config));
     }
-    all.push_back(std::move(*config));
   }
+  if (all.size() == 1) require_scene(all.front(), purpose_);
   return all;
 }
 
-std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene, std::ostream& out) const {
+std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
+  const std::string argument = scene_argument();
+  const std::vector<ProjectFile> projects = projects_of(argument);
+  if (projects.size() > 1)
+    fail(ExitCode::usage, "{} lists {} scenes, and this command takes one; pick it with --file: {}", argument,
+         projects.size(), files_in(read_project(argument)));
+  auto config = resolve(projects.front(), argument, out);
+  if (config && !config->globals.output.dir.empty() && is_in_shared_folder(projects.front(), *config))
+    config->globals.output.dir /= config->globals.scene.file.stem();
+  if (config) require_scene(*config, purpose_);
+  return config;
+}
+
+std::optional<ResolvedConfig> SettingsFlags::resolve(const ProjectFile& project, const std::string& argument,
+                                                     std::ostream& out) const {
   if (print_reference_->count() > 0) {
     out << settings_reference();
     return std::nullopt;
   }
+  const Setting* file = find_setting("file");
   std::vector<SettingOverride> flags = given_flags();
-  ProjectFile project;
-  if (!scene.empty()) {
-    if (is_project_path(scene)) {
-      project = read_project(scene);
-    } else {
-      const Setting* file = find_setting("file");
-      for (const SettingOverride& flag : flags) {
-        if (flag.setting == file)
-          fail(ExitCode::usage, "{} and --file both name a scene; give one of them", scene);
-      }
-      SettingOverride one{file, scene, SettingSource::flag, "argument SCENE"};
-      flags.push_back(std::move(one));
-    }
+  std::vector<SettingOverride> environment = read_environment(process_environment());
+  const auto is_file = [&](const SettingOverride& one) { return one.setting == file; };
+  if (!project.scenes.empty()) {
+    const bool is_chosen = std::erase_if(flags, is_file) + std::erase_if(environment, is_file) > 0;
+    SettingOverride one{file, project.scenes.front().file.string(), SettingSource::flag, "flag --file"};
+    if (is_chosen) flags.push_back(std::move(one));
+  } else if (!argument.empty() && !is_project_path(argument)) {
+    if (std::ranges::any_of(flags, is_file))
+      fail(ExitCode::usage, "{} and --file both name a scene; give one of them", argument);
+    SettingOverride one{file, argument, SettingSource::flag, "argument SCENE"};
+    flags.push_back(std::move(one));
   }
-  ResolvedConfig config = rnmbake::resolve(project, read_environment(process_environment()), flags);
+  ResolvedConfig config = rnmbake::resolve(project, environment, flags);
   if (print_config_->count() > 0) {
+    if (!project.scenes.empty()) out << fmt::format("# {}\n", config.globals.scene.file.string());
     out << print_config(config, purpose_);
     return std::nullopt;
   }
-  require_scene(config, purpose_);
   return config;
 }
 

@@ -26,14 +26,16 @@ class SettingsFlags {
   SettingsFlags(const SettingsFlags&) = delete;
   SettingsFlags& operator=(const SettingsFlags&) = delete;
 
-  /// After parsing. Reads project file and environment, checks that the scene exists.
+  /// After parsing. Reads project file and environment, checks that the scene exists. Of a project with
+  /// several scenes, --file says which is meant.
   /// nullopt: --print-config was asked for and answered on `out`, the command ends with 0.
   /// Throws Error(usage), Error(io).
   [[nodiscard]] std::optional<ResolvedConfig> resolve(std::ostream& out) const;
   [[nodiscard]] std::optional<ResolvedConfig> resolve() const;  // on stdout
 
-  /// The same of a command that takes several scenes or projects, each with the flags; of several, each
-  /// writes into a folder of its own below the output folder, with the name of its file. Empty: as nullopt
+  /// The same of a command that takes several scenes or projects, each with the flags, and projects that list
+  /// several; of several, each writes into a folder of its own below the output folder, with the name of its
+  /// file, unless the project says which. That each of several exists, nobody has looked. Empty: as nullopt
   /// above.
   [[nodiscard]] std::vector<ResolvedConfig> resolve_all() const;
   void take_several_scenes(CLI::App& command);
@@ -44,7 +46,9 @@ class SettingsFlags {
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
   [[nodiscard]] std::vector<SettingOverride> given_flags() const;
-  [[nodiscard]] std::optional<ResolvedConfig> resolve(const std::string& scene, std::ostream& out) const;
+  [[nodiscard]] std::vector<ProjectFile> projects_of(const std::string& argument) const;
+  [[nodiscard]] std::optional<ResolvedConfig> resolve(const ProjectFile& project, const std::string& argument,
+                                                      std::ostream& out) const;
 
   Purpose purpose_;
   std::vector<std::pair<const Setting*, CLI::Option*>> options_;

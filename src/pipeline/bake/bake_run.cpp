@@ -236,7 +236,7 @@ BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
   log::info("baking {} x {} in {} of Blender {}", counted(targets.size(), "lightmap"),
             counted(subject.bases.size(), "basis"), counted(planned.plan.batches.size(), "launch"),
             blender.version_text);
-  BakeCollector collector(context, settings.output, planned.headers);
+  BakeCollector collector(context, settings.output, planned.headers, subject.rules.preview);
   BakeOutcome outcome;
   outcome.timings = run_batches(session, planned.plan, subject.blends.shown, recipe_of(settings, context),
                                 collector, subject.rules);

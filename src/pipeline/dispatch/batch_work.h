@@ -77,7 +77,8 @@ class BatchWork {
   /// By how much work() fell since the last call.
   [[nodiscard]] double take_less_work();
 
-  /// Pictures in the layout's order, once it is complete.
+  /// Pictures in the layout's order, so far; and once it is complete.
+  [[nodiscard]] const std::vector<BakedPicture>& pictures() const { return pictures_; }
   [[nodiscard]] std::vector<BakedPicture> take_pictures() { return std::move(pictures_); }
 
   /// Pictures so far, to go on from.

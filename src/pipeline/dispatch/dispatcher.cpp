@@ -31,7 +31,7 @@ struct Attempt {
   EarlierPictures earlier;          // of a batch that was divided
   std::shared_ptr<BatchWork> work;  // from the first try on
   int retries_left = 0;
-  bool was_killed = false;
+  bool was_killed = false, is_shown = false;
   std::vector<WholeBatch> wholes = {};  // whose piece it is, where pieces are looked into
 
   [[nodiscard]] const Batch& batch() const { return missing.batch; }
@@ -155,8 +155,11 @@ class Dispatcher {
     if (!work.is_complete()) {
       const std::size_t passes_before = work.passes_done();
       const double before = work.done();
-      const LaunchOutcome outcome = launch_batch(
-          session_, blend_, jobs_, work, [&](const ProgressEvent& event) { show(work, before, event); });
+      const LaunchOutcome outcome =
+          launch_batch(session_, blend_, jobs_, work, [&](const ProgressEvent& event) {
+            show(work, before, event);
+            preview(work, attempt.is_shown);
+          });
       const auto* failure = std::get_if<LaunchFailure>(&outcome);
       if (failure == nullptr && work.is_complete()) count(std::get<Finished>(outcome));
       if (!work.is_complete()) {
@@ -242,6 +245,7 @@ class Dispatcher {
                nullptr,
                0,
                false,
+               false,
                wholes});
   }
 
@@ -297,6 +301,13 @@ class Dispatcher {
     const double done = std::clamp(before + since, work.done(), work.work());
     progress_.leave_out(work.take_less_work());
     progress_.advance(work.batch().tasks.front(), done - work.kept(), in_words(event));
+  }
+
+  /// After the first pass, unless it was the last, too.
+  void preview(const BatchWork& work, bool& is_shown) {
+    if (!rules_.preview || is_shown || work.passes_done() == 0 || work.is_complete()) return;
+    is_shown = true;
+    sink_.preview(work.layout(), work.pictures());
   }
 
   BlenderSession& session_;

@@ -27,7 +27,8 @@ struct DispatchRules {
   /// Where it is there, nothing is launched. A target that the cache does not hold all passes of, of its
   /// batch or of the pieces into which that was split, is given up for the reason that this says.
   std::function<std::string(std::size_t target)> why_missing = {};
-  bool halves = true;  // else the samples are one sequence, and no error is known
+  bool preview = false;  // the sink is shown what the first passes bring
+  bool halves = true;    // else the samples are one sequence, and no error is known
 };
 
 /// Runs the passes of all batches of the plan, but for what the cache holds. A failed batch is tried again

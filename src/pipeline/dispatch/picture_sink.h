@@ -24,6 +24,9 @@ class PictureSink {
   /// run.
   virtual void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) = 0;
 
+  /// Shows what the first passes of a batch have brought.
+  virtual void preview(const BatchLayout& /*layout*/, const std::vector<BakedPicture>& /*pictures*/) {}
+
   /// Gives a target up; later pictures of it are discarded.
   virtual void give_up(std::size_t target, const std::string& reason) = 0;
 

@@ -10,10 +10,11 @@
 namespace rnmbake {
 
 BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
-                             std::vector<LightmapHeader> headers)
+                             std::vector<LightmapHeader> headers, bool preview)
     : context_(context),
       output_(output),
       headers_(std::move(headers)),
+      previews_(preview ? std::make_unique<PreviewPictures>(context_, output_, headers_) : nullptr),
       pending_(headers_.size()),
       deliveries_(headers_.size()) {
   for (const BakeTask& task : context.plan.tasks) ++pending_[task.target].missing;
@@ -36,12 +37,18 @@ void BakeCollector::take(const Batch& batch, const BatchLayout& layout, std::vec
   }
   for (auto& [target, pending] : complete) {
     Delivery delivery = finish(target, std::move(pending));
+    if (previews_) previews_->finish(target);
     const std::lock_guard lock(mutex_);
     deliveries_[target] = std::move(delivery);
   }
 }
 
+void BakeCollector::preview(const BatchLayout& layout, const std::vector<BakedPicture>& pictures) {
+  if (previews_) previews_->take(layout, pictures);
+}
+
 void BakeCollector::give_up(std::size_t target, const std::string& reason) {
+  if (previews_) previews_->finish(target);
   const std::lock_guard lock(mutex_);
   if (deliveries_[target]) return;
   const std::string& key = context_.targets[target].key;

@@ -7,8 +7,10 @@
 #include "config/bake_settings.h"
 #include "pipeline/dispatch/picture_sink.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
+#include "pipeline/lightmaps/preview_pictures.h"
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -19,11 +21,13 @@ namespace rnmbake {
 /// disk.
 class BakeCollector : public PictureSink {
  public:
-  BakeCollector(const BakeContext& context, const OutputSettings& output,
-                std::vector<LightmapHeader> headers);
+  /// `preview`: pictures to look at lie in DIR/preview while it bakes.
+  BakeCollector(const BakeContext& context, const OutputSettings& output, std::vector<LightmapHeader> headers,
+                bool preview = false);
 
   /// Writes each target that became complete.
   void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) override;
+  void preview(const BatchLayout& layout, const std::vector<BakedPicture>& pictures) override;
   void give_up(std::size_t target, const std::string& reason) override;
   [[nodiscard]] bool is_settled(std::size_t target) const override;
   [[nodiscard]] const std::vector<Delivery>& deliveries() const { return deliveries_; }
@@ -38,6 +42,7 @@ class BakeCollector : public PictureSink {
   BakeContext context_;
   OutputSettings output_;
   std::vector<LightmapHeader> headers_;
+  std::unique_ptr<PreviewPictures> previews_;  // of headers_; null: nobody asked
   mutable std::mutex mutex_;
   std::vector<PendingTarget> pending_;
   std::vector<Delivery> deliveries_;

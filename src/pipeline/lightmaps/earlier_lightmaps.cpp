@@ -40,11 +40,6 @@ const std::vector<Vec2>* find_layer(const Mesh& mesh, const std::string& name) {
   return found == mesh.uv_layers.end() ? nullptr : &found->uv;
 }
 
-std::string object_key_of(const json& entry) {
-  const auto key = entry.at("key").get<std::string>(), part = entry.at("part").get<std::string>();
-  return part.empty() ? key : key.substr(0, key.size() - part.size() - 1);
-}
-
 /// Entries of the manifest that describe a whole run; kept for each earlier lightmap, since the new run has
 /// others.
 json facts_of_run(const json& manifest) {

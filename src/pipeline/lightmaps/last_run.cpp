@@ -5,12 +5,12 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/read_file.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "blender/late_blender.h"
 #include "config/value.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 
@@ -20,13 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Settings that change how the work is done, and nothing of what comes out.
-constexpr std::array<std::string_view, 12> without_effect{
-    "file",           "dir",     "keep_temporary", "jobs",        "threads",   "timeout",
-    "launch_timeout", "retries", "cache",          "cache_limit", "lock_wait", "memory_max"};
+constexpr std::string_view assumed_key = "assumed = ";
 
 bool has_effect(const Setting& setting) {
-  return std::ranges::find(without_effect, setting.key) == without_effect.end();
+  return setting.has_effect && setting.serves(Purpose::bake);
 }
 
 std::string line_of(const SettingOverride& one) {
@@ -35,6 +32,7 @@ std::string line_of(const SettingOverride& one) {
 
 std::string settings_text(const ResolvedConfig& config, const std::string& command) {
   std::string text = fmt::format("command = {}\nrnmbake = {}\n", command, version);
+  text += fmt::format("file = {}\n", fs::absolute(config.globals.scene.file).lexically_normal().string());
   for (const SettingOverride& one : config.values()) {
     if (has_effect(*one.setting)) text += line_of(one);
   }
@@ -65,17 +63,38 @@ std::vector<RunFile> written_files(const fs::path& dir) {
   return files;
 }
 
-json to_json(const SceneDigest& digest) {
-  json entries = json::array();
-  for (const DigestEntry& entry : digest.entries) entries.push_back({entry.what, entry.hash});
-  return entries;
+/// In the settings of a record: a run without --assume-local has none.
+std::string assumed_line(std::size_t lightmaps) {
+  return lightmaps == 0 ? "" : fmt::format("{}{}\n", assumed_key, counted(lightmaps, "lightmap"));
+}
+
+/// Takes that line out of them; what it says, "" where there was none.
+std::string take_assumed(std::string& settings) {
+  const std::size_t begin = settings.find(assumed_key);
+  if (begin == std::string::npos) return "";
+  const std::size_t end = settings.find('\n', begin);
+  const std::size_t text = begin + assumed_key.size();
+  std::string what = settings.substr(text, end - text);
+  settings.erase(begin, end + 1 - begin);
+  return what;
+}
+
+/// The first reason to run that no scene has to do with.
+std::string reason_but_scene(const RunRecord& record, const std::string& settings) {
+  RunRecord other{record.settings, {}};
+  for (const RunFile& file : record.files) {
+    if (file.kind == "program" || file.kind == "blender" || file.kind == "basis file")
+      other.files.push_back(file);
+  }
+  const Reasons reasons = reasons_to_run(other, settings);
+  return reasons.empty() ? "" : reasons.front();
 }
 
 }  // namespace
 
-LastRun::LastRun(const ResolvedConfig& config, std::string command, bool needs_blender)
+LastRun::LastRun(const ResolvedConfig& config, std::string command, const Needs& needs)
     : config_(config), settings_(settings_text(config, command)) {
-  if (needs_blender) {
+  if (needs.blender) {
     blender_ = blender_of(config.globals);
     settings_ += fmt::format("blender at {}\n", blender_.string());
   }
@@ -88,9 +107,15 @@ LastRun::LastRun(const ResolvedConfig& config, std::string command, bool needs_b
     reasons_.emplace_back("the record of the last run cannot be read");
     return;
   }
+  const std::string recorded = record->settings;
+  const std::string assumed = take_assumed(record->settings);
+  other_ = reason_but_scene(*record, settings_);
   reasons_ = reasons_to_run(*record, settings_);
+  if (!assumed.empty() && needs.is_settled)
+    reasons_.push_back(assumed + " assumed to be as before (--assume-local)");
   files_ = record->files;
   if (!reasons_.empty()) return;
+  record->settings = recorded;
   write_record(record_file(), *record);  // with the times of files that were touched
 }
 
@@ -115,23 +140,26 @@ fs::path LastRun::digest_file() const {
   return config_.globals.output.dir / ".rnmbake-scene.json";
 }
 
-Reasons LastRun::scene_changes(const SceneDigest& now) const {
+std::optional<PlacedScene> LastRun::scene() const {
+  if (!fs::exists(digest_file())) return std::nullopt;
   try {
-    if (!fs::exists(digest_file())) return {};
-    SceneDigest before;
-    for (const json& entry : parse_json(read_text(digest_file()), digest_file().string()))
-      before.entries.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
-    return differences(before, now);
+    return placed_scene_from(parse_json(read_text(digest_file()), digest_file().string()));
   } catch (const Error&) {
-    return {};
+    return std::nullopt;  // cut off, or of an older version
   } catch (const json::exception&) {
-    return {};
+    return std::nullopt;
   }
 }
 
-void LastRun::keep(const SceneSurvey& survey) const {
+Reasons LastRun::scene_changes(const SceneDigest& now) const {
+  const auto before = scene();
+  return before ? differences(before->digest, now) : Reasons{};
+}
+
+void LastRun::keep(const SceneSurvey& survey, std::size_t assumed) const {
   const BakeSettings& settings = config_.globals;
-  RunRecord record{settings_, {look_at("program", fs::read_symlink("/proc/self/exe"))}};
+  RunRecord record{settings_ + assumed_line(assumed),
+                   {look_at("program", fs::read_symlink("/proc/self/exe"))}};
   const auto add = [&](const char* kind, const fs::path& path) {
     if (!path.empty()) record.files.push_back(look_at(kind, fs::absolute(path)));
   };
@@ -144,7 +172,7 @@ void LastRun::keep(const SceneSurvey& survey) const {
   }
   for (RunFile& file : written_files(fs::absolute(settings.output.dir)))
     record.files.push_back(std::move(file));
-  write_atomically(digest_file(), to_json(survey.digest).dump() + "\n");
+  write_atomically(digest_file(), to_json(place_scene(survey)).dump() + "\n");
   write_record(record_file(), record);
 }
 

@@ -3,9 +3,10 @@
 
 #include "config/resolve.h"
 #include "jobs/run_record.h"
-#include "scene/scene_digest.h"
+#include "scene/scene_places.h"
 #include "scene/survey.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,9 +18,14 @@ namespace rnmbake {
 /// by content where those differ. Starts no Blender.
 class LastRun {
  public:
+  struct Needs {
+    bool blender = true;     // else none is looked for
+    bool is_settled = true;  // lightmaps that were assumed to be as they were are a reason to run
+  };
+
   /// `command`: "bake", "reference". Throws Error(environment) where the run needs a Blender and there is
-  /// none; without `needs_blender` none is looked for.
-  LastRun(const ResolvedConfig& config, std::string command, bool needs_blender = true);
+  /// none.
+  LastRun(const ResolvedConfig& config, std::string command, const Needs& needs);
 
   /// Why it has to be run; empty: it need not be.
   [[nodiscard]] const Reasons& reasons() const { return reasons_; }
@@ -30,8 +36,15 @@ class LastRun {
   /// What of the scene is not as it was in that run, once it is surveyed; empty where nothing is known.
   [[nodiscard]] Reasons scene_changes(const SceneDigest& now) const;
 
-  /// Keeps this run, all of whose objects were delivered, for the next one.
-  void keep(const SceneSurvey& survey) const;
+  /// The scene of that run; nothing where it is not known.
+  [[nodiscard]] std::optional<PlacedScene> scene() const;
+
+  /// What else than the scene is not as it was in that run: settings, the program, Blender; "": nothing.
+  [[nodiscard]] const std::string& other_than_scene() const { return other_; }
+
+  /// Keeps this run, all of whose objects were delivered, for the next one. `assumed`: lightmaps that were
+  /// assumed to be as they were.
+  void keep(const SceneSurvey& survey, std::size_t assumed = 0) const;
 
   /// The record's file in an output folder.
   [[nodiscard]] static std::filesystem::path record_in(const std::filesystem::path& dir);
@@ -44,6 +57,7 @@ class LastRun {
   std::filesystem::path blender_;  // empty: not needed
   std::string settings_;
   Reasons reasons_;
+  std::string other_ = "nothing was baked there before";
   std::vector<RunFile> files_;  // of the last run
 };
 

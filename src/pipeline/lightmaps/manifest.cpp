@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/json.h"
 #include "config/recipe_names.h"
+#include "pipeline/lightmaps/left_files.h"
 #include "pipeline/lightmaps/target_facts.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 namespace rnmbake {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 json to_json(const MergeCounts& counts) {
@@ -216,9 +218,14 @@ nlohmann::json make_manifest(const ManifestInput& input) {
 }
 
 void write_manifest(const ManifestInput& input) {
+  const fs::path& dir = input.settings.output.dir;
   const json timings = std::visit([](const auto& record) { return timings_of(record); }, input.record);
-  write_atomically(input.settings.output.dir / "timings.json", timings.dump(2) + "\n");
-  write_atomically(input.settings.output.dir / "manifest.json", make_manifest(input).dump(2) + "\n");
+  write_atomically(dir / "timings.json", timings.dump(2) + "\n");
+  const fs::path file = dir / "manifest.json";
+  const json before = fs::is_regular_file(file) ? json_or_null(read_text(file)) : json();
+  const json now = make_manifest(input);
+  write_atomically(file, now.dump(2) + "\n");
+  note_left_files(dir, before, now, input.survey);
 }
 
 }  // namespace rnmbake

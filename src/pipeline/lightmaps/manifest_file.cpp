@@ -17,6 +17,11 @@ nlohmann::json to_json(const std::vector<BasisDirection>& bases) {
   return list;
 }
 
+std::string object_key_of(const json& entry) {
+  const auto key = entry.at("key").get<std::string>(), part = entry.at("part").get<std::string>();
+  return part.empty() ? key : key.substr(0, key.size() - part.size() - 1);
+}
+
 nlohmann::json read_manifest(const std::filesystem::path& file) {
   json manifest = parse_json(read_text(file), file.string());
   const auto version = manifest.find("schema_version");

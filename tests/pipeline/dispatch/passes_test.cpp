@@ -25,11 +25,13 @@ struct PassBake {
   BakeTimings run() {
     BlenderSession session(scene.config(), blender);
     BakeCollector collector(BakeContext{context.survey, context.targets, context.bases, planned},
-                            scene.settings().output, scene.headers());
+                            scene.settings().output, scene.headers(), preview);
     const auto recipe = receiver_requests(scene.settings(), context.survey, planned);
     const PassCache cache(store, KeyMaker().add("scene", "a").make("scene"));
+    DispatchRules rules{cache, deadline};
+    rules.preview = preview;
     const BakeTimings timings =
-        run_batches(session, planned, BlendPath("scene.blend"), recipe, collector, {cache, deadline});
+        run_batches(session, planned, BlendPath("scene.blend"), recipe, collector, rules);
     delivered = is_delivered(collector, 0) && is_delivered(collector, 1);
     for (std::size_t i = 0; i < 2 && delivered; ++i)
       outcome.push_back(std::get<Delivered>(*collector.deliveries()[i]));
@@ -48,7 +50,7 @@ struct PassBake {
   Plan planned;
   FakeBlender blender;
   std::optional<double> deadline;
-  bool delivered = false;
+  bool delivered = false, preview = false;
   std::vector<Delivered> outcome;  // [targets]
 };
 
@@ -73,6 +75,24 @@ TEST(Passes, AreBakedOnceEach) {
   const auto baked = bake.samples_baked();
   EXPECT_GT(baked.size(), 4U);
   EXPECT_EQ(std::set(baked.begin(), baked.end()).size(), baked.size());
+}
+
+TEST(Passes, AreShownAfterTheFirst) {
+  const TempFolder folder;
+  for (const bool preview : {false, true}) {
+    PassBake bake(folder.path() / (preview ? "with" : "without"));
+    bake.preview = preview;
+    std::vector<bool> is_there;  // after each pass
+    bake.blender.fault_after = [&](const nlohmann::json&) {
+      is_there.push_back(std::filesystem::exists(bake.scene.folder() / "preview" / "object1.png"));
+      return std::nullopt;
+    };
+    (void)bake.run();
+    EXPECT_TRUE(bake.delivered);
+    ASSERT_GT(is_there.size(), 2U);
+    EXPECT_EQ(is_there.back(), preview);
+    EXPECT_FALSE(std::filesystem::exists(bake.scene.folder() / "preview"));
+  }
 }
 
 TEST(Passes, ThatAreThereAreNotBakedAgainAfterACrash) {

@@ -1,6 +1,8 @@
 #include "pipeline/lightmaps/bake_collector.h"
 
 #include "base/error.h"
+#include "base/files.h"
+#include "image/display_png.h"
 #include "image/layered_exr.h"
 #include "lightmap/metadata.h"
 #include "pipeline/fixture.h"
@@ -33,15 +35,27 @@ BatchLayout layout_of(const Plan& plan, const Batch& batch) {
 }
 
 struct Desk {
-  explicit Desk(const BakeSettings& settings = {}, std::size_t objects = 1)
+  explicit Desk(const BakeSettings& settings = {}, std::size_t objects = 1, bool preview = false)
       : scene(objects, settings),
         context(scene.context()),
-        collector(context, scene.settings().output, scene.headers()) {}
+        collector(context, scene.settings().output, scene.headers(), preview) {}
 
   void take(const std::vector<std::size_t>& tasks, float value = 0.5F) {
     const Batch batch{tasks};
     const BatchLayout layout = layout_of(scene.plan(), batch);
     collector.take(batch, layout, pictures_of(scene.plan(), layout, value));
+  }
+  void preview(const std::vector<std::size_t>& tasks, float value = 0.5F) {
+    const BatchLayout layout = layout_of(scene.plan(), {tasks});
+    collector.preview(layout, pictures_of(scene.plan(), layout, value));
+  }
+  /// Names in the folder of previews.
+  [[nodiscard]] std::vector<std::string> previews() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(scene.folder() / "preview"))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
   }
   [[nodiscard]] LayeredImage read(const std::string& name) const { return read_image(scene.folder() / name); }
 
@@ -82,6 +96,39 @@ TEST(BakeCollector, WritesATargetWhenItsLastUnitArrives) {
   const auto& delivered = std::get<Delivered>(*d.collector.deliveries()[0]);
   EXPECT_EQ(delivered.files, std::vector<std::string>{"object0.exr"});
   EXPECT_EQ(delivered.counts.covered_texels, 64U);
+}
+
+TEST(BakeCollector, ShowsTargetsUntilTheyAreThere) {
+  Desk d({}, 3, true);
+  d.preview({0, 1, 2, 3, 4, 5, 6}, 0.25F);
+  EXPECT_EQ(d.previews(), std::vector<std::string>{"object0.png"}) << "of the second a map is missing";
+  const LayeredImage picture = d.read("preview/object0.png");
+  EXPECT_NEAR(picture.layers.front().pixels.texel(3, 3)[0], srgb_encode(0.25F), 0.5 / 255);
+  d.preview({7, 8, 9, 10, 11});
+  EXPECT_EQ(d.previews(), (std::vector<std::string>{"object0.png", "object1.png", "object2.png"}));
+  d.take({0, 1, 2, 3});
+  d.collector.give_up(1, "hung");
+  EXPECT_EQ(d.previews(), std::vector<std::string>{"object2.png"});
+  d.preview({0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(d.previews(), std::vector<std::string>{"object2.png"}) << "those are there, or never will be";
+  d.take({8, 9, 10, 11});
+  EXPECT_EQ(d.previews(), std::vector<std::string>{});
+}
+
+TEST(BakeCollector, RemovesTheFolderOfPreviewsUnlessSomethingElseIsInIt) {
+  Invented scene(1);
+  const BakeContext context = scene.context();
+  const BatchLayout layout = layout_of(scene.plan(), {{0, 1, 2, 3}});
+  for (const bool is_used : {false, true}) {
+    {
+      BakeCollector collector(context, scene.settings().output, scene.headers(), true);
+      collector.preview(layout, pictures_of(scene.plan(), layout));
+      EXPECT_EQ(scene.files(), std::vector<std::string>{"preview"});
+      if (is_used) write_atomically(scene.folder() / "preview" / "mine.txt", "mine");
+    }
+    EXPECT_EQ(std::filesystem::exists(scene.folder() / "preview"), is_used);
+    EXPECT_FALSE(std::filesystem::exists(scene.folder() / "preview" / "object0.png"));
+  }
 }
 
 TEST(BakeCollector, LayersHoldAllBasesAndCoverage) {

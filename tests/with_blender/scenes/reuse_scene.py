@@ -53,6 +53,8 @@ def change(what):
         bpy.data.lights[0].energy = 30
     elif what == "picture":
         picture(os.path.join(os.path.dirname(FILE), "wall.png"), (0.1, 0.4, 0.9))
+    elif what == "no box":
+        bpy.data.objects.remove(bpy.data.objects["box"])
     else:
         raise ValueError(what)
 
