@@ -24,7 +24,10 @@ void warn_of_newer(const BlenderSession& session, const BlendPath& scene) {
 }
 
 SceneSurvey survey_blend(BlenderSession& session, const BlendPath& blend) {
-  const Launch launch = launch_on(session, "survey_entry.py", "survey", blend);
+  Launch launch = launch_on(session, "survey_entry.py", "survey", blend);
+  // Blender 3.4 adds up normals of vertices in the order in which its threads come by, so that last digits,
+  // and with them the keys of the cache, were others now and then.
+  launch.threads = 1;
   const nlohmann::json answer = session.run(launch);
   warn_of_newer(session, blend);
   return read_survey(answered_file(answer, "survey", launch.folder));
