@@ -1,8 +1,9 @@
 #include "bake/baked_picture.h"
 
+#include "base/bytes.h"
+
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 namespace rnmbake {
@@ -23,29 +24,6 @@ void blend(FloatImage& picture, const FloatImage& other, double share) {
     if (i % 4 != 3) values[i] = float(double(values[i]) * (1 - share) + double(other.data()[i]) * share);
   }
 }
-
-template <typename T>
-void put(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// Takes values off the front of bytes, as long as there are enough of them.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-
-  template <typename T>
-  [[nodiscard]] bool take(T& value) {
-    if (bytes_.size() < sizeof value) return false;
-    std::memcpy(&value, bytes_.data(), sizeof value);
-    bytes_.remove_prefix(sizeof value);
-    return true;
-  }
-  [[nodiscard]] std::size_t left() const { return bytes_.size(); }
-
- private:
-  std::string_view bytes_;
-};
 
 struct PictureHead {
   std::int32_t width = 0, height = 0;
@@ -70,7 +48,7 @@ void put_picture(std::string& bytes, const BakedPicture& picture) {
   }
 }
 
-bool take_picture(Reader& in, BakedPicture& picture) {
+bool take_picture(ByteReader& in, BakedPicture& picture) {
   PictureHead head;
   if (!in.take(head) || head.width < 0 || head.height < 0 || head.samples[0] < 0 || head.samples[1] < 0)
     return false;
@@ -151,7 +129,7 @@ std::string to_bytes(std::span<const BakedPicture> pictures) {
 }
 
 std::optional<std::vector<BakedPicture>> from_bytes(std::string_view bytes) {
-  Reader in(bytes);
+  ByteReader in(bytes);
   std::uint64_t count = 0;
   if (!in.take(count) || count > bytes.size()) return std::nullopt;
   std::vector<BakedPicture> pictures(count);

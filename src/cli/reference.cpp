@@ -9,6 +9,7 @@
 #include "cli/flags/settings_flags.h"
 #include "cli/run_report.h"
 #include "pipeline/reference/reference_run.h"
+#include "pipeline/run/result_store.h"
 #include "pipeline/scene/export_scene.h"
 #include "pipeline/scene/save_scene.h"
 #include "process/stop.h"
@@ -105,9 +106,9 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
     }
     log::info("{} {} x {} against Blender {}", kind.verb, counted(chosen.list.targets.size(), "lightmap"),
               counted(bases.size(), "direction"), plan.blender_version);
-    code =
-        report(run_reference({scene, chosen.list, bases, chosen.earlier}, settings, plan, kind.verb, saved),
-               settings.output);
+    Store store = open_store(settings);
+    const ReferenceSubject subject{scene, chosen.list, bases, chosen.earlier, {&store, exported.content}};
+    code = report(run_reference(subject, settings, plan, kind.verb, saved), settings.output);
   }
   if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey, chosen);
   made = made_from(config);

@@ -1,10 +1,13 @@
 // sampling/batch_statistics.h - means and standard errors from batches of samples.
 #pragma once
 
+#include "base/bytes.h"
 #include "base/math.h"
 #include "base/numeric/running_moments.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace rnmbake {
@@ -36,6 +39,20 @@ class BatchStatistics {
   /// Of the mean over all texels, whose errors are correlated.
   [[nodiscard]] Vec3 whole_mean(std::size_t value) const { return whole_[value].mean; }
   [[nodiscard]] Vec3 whole_squared_error(std::size_t value) const { return squared_error(whole_[value]); }
+
+  /// All batches that ended, as bytes.
+  void put_into(std::string& bytes) const {
+    put(bytes, std::int32_t{batches_});
+    bytes += bytes_of(state_);
+    bytes += bytes_of(whole_);
+  }
+  /// ... and back, into statistics of as many texels and values.
+  [[nodiscard]] bool take_from(ByteReader& in) {
+    std::int32_t batches = 0;
+    if (!in.take(batches) || !in.take(state_) || !in.take(whole_)) return false;
+    batches_ = batches;
+    return batches >= 0;
+  }
 
  private:
   using Moments = RunningMoments<Vec3>;

@@ -111,6 +111,9 @@ inline constexpr const char* diffuse_scene_ending = ".rnmscene";
 /// The bytes of the file; the same for the same scene.
 [[nodiscard]] std::string diffuse_scene_bytes(const DiffuseScene& scene);
 
+/// Hash of all that light depends on, as 32 hexadecimal digits: not of paths, messages or the camera.
+[[nodiscard]] std::string light_hash(const DiffuseScene& scene);
+
 /// Writes whole or not at all. Throws Error(io).
 void write_diffuse_scene(const std::filesystem::path& file, const DiffuseScene& scene);
 

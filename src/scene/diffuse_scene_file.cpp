@@ -125,6 +125,14 @@ std::string diffuse_scene_bytes(const DiffuseScene& scene) {
   return bytes;
 }
 
+std::string light_hash(const DiffuseScene& scene) {
+  std::string data;
+  json content = store_diffuse_scene(scene, data);
+  for (const char* other : {"scene_file", "scene_name", "warnings", "probe_places"}) content.erase(other);
+  for (const char* other : {"camera", "outside"}) content["exchange"].erase(other);
+  return hash128_hex(content.dump(-1, ' ', false, json::error_handler_t::replace) + hash128_hex(data));
+}
+
 void write_diffuse_scene(const fs::path& file, const DiffuseScene& scene) {
   write_atomically(file, diffuse_scene_bytes(scene));
 }

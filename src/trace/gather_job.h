@@ -1,6 +1,7 @@
 // trace/gather_job.h - gathering for one target: its blocks of texels, and the number of samples of each.
 #pragma once
 
+#include "base/bytes.h"
 #include "trace/block.h"
 #include "trace/texel_samples.h"
 
@@ -10,6 +11,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace rnmbake {
@@ -26,6 +29,17 @@ struct TexelBlock {
   std::vector<std::int64_t> back_faces;
 
   [[nodiscard]] std::int64_t samples() const { return std::int64_t(statistics->batches()) * batch_samples; }
+  /// That the plan asks for beyond those that are there.
+  [[nodiscard]] double missing_paths() const {
+    const int missing = batches - (statistics ? statistics->batches() : 0);
+    return double(std::max(0, missing)) * batch_samples * double(count);
+  }
+};
+
+/// Some blocks in a row, and what a round adds to them.
+struct BlockRange {
+  std::size_t first = 0, count = 0;
+  double paths = 0;
 };
 
 class GatherJob {
@@ -44,6 +58,7 @@ class GatherJob {
   }
 
   [[nodiscard]] std::size_t index() const { return index_; }
+  [[nodiscard]] const GatherTarget& target() const { return target_; }
   [[nodiscard]] std::size_t texels() const { return texel_samples_.size(); }
   std::vector<TexelBlock>& blocks() { return blocks_; }
 
@@ -53,7 +68,7 @@ class GatherJob {
     BlockGatherer gatherer(scene_, texel_samples_, options_, own_ ? &*own_ : nullptr);
     if (!block.statistics)
       block.statistics = std::make_unique<BatchStatistics>(block.count, gatherer.values());
-    const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, index_), stage), block.first);
+    const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, target_.stream), stage), block.first);
     const double share = 1.0 / std::max(1, block.batches - block.statistics->batches());
     while (block.statistics->batches() < block.batches) {
       const auto number = static_cast<std::uint64_t>(block.statistics->batches());
@@ -104,6 +119,57 @@ class GatherJob {
       block.batches = std::max(block.batches, batches);
     }
     return more;
+  }
+
+  /// Blocks of which the plan asks more, and those between them, cut into ranges of so many paths.
+  [[nodiscard]] std::vector<BlockRange> missing(double paths) const {
+    std::vector<BlockRange> ranges;
+    BlockRange range;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      range.paths += blocks_[b].missing_paths();
+      ++range.count;
+      if (range.paths < paths && b + 1 < blocks_.size()) continue;
+      if (range.paths > 0) ranges.push_back(range);
+      range = {b + 1, 0, 0};
+    }
+    return ranges;
+  }
+
+  /// What was gathered for some blocks, as bytes.
+  [[nodiscard]] std::string state(std::size_t first, std::size_t count) const {
+    std::string bytes;
+    for (std::size_t b = first; b < first + count; ++b) {
+      const TexelBlock& block = blocks_[b];
+      put(bytes, std::int32_t{block.batch_samples});
+      put(bytes, std::int32_t{block.batches});
+      put(bytes, block.rays);
+      bytes += bytes_of(block.back_faces);
+      block.statistics->put_into(bytes);
+    }
+    return bytes;
+  }
+
+  /// ... and back; false, and nothing is changed, where they are no such bytes.
+  [[nodiscard]] bool restore(std::size_t first, std::size_t count, std::string_view bytes) {
+    ByteReader in(bytes);
+    std::vector<TexelBlock> found;
+    const std::size_t values =
+        options_.directions.size() + std::size_t(options_.sh_order) * std::size_t(options_.sh_order);
+    for (std::size_t b = first; b < first + count; ++b) {
+      TexelBlock block{blocks_[b].first, blocks_[b].count, 1, 0, {}, 0, {}};
+      std::int32_t batch_samples = 0, batches = 0;
+      block.back_faces.resize(block.count);
+      block.statistics = std::make_unique<BatchStatistics>(block.count, values);
+      if (!in.take(batch_samples) || !in.take(batches) || !in.take(block.rays) ||
+          !in.take(block.back_faces) || !block.statistics->take_from(in))
+        return false;
+      block.batch_samples = batch_samples;
+      block.batches = batches;
+      found.push_back(std::move(block));
+    }
+    if (in.left() > 0) return false;
+    std::move(found.begin(), found.end(), blocks_.begin() + std::ptrdiff_t(first));
+    return true;
   }
 
   Gathered result() const {

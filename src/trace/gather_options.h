@@ -38,6 +38,7 @@ struct GatherTarget {
   const Surface* surface = nullptr;
   std::size_t object = 0;  // index into SceneSurvey::objects
   int width = 0, height = 0;
+  std::uint64_t stream = 0;  // of random numbers; what a target gathers does not depend on the others
 };
 
 struct GatherOptions {

@@ -62,9 +62,10 @@ class Dispatcher {
     const std::vector<MissingBatch> missing =
         rules.shares.empty() ? kept_.missing(cut_by(recipe_, plan_, all_jobs)) : rules.shares;
     jobs_ = jobs_granted(jobserver_, choose_jobs(session.settings(), missing.size()));
-    for (const MissingBatch& one : missing) {
+    for (MissingBatch one : missing) {
+      if (!recipe_.in_passes) one.done = {0, 0};  // it is baked as a whole, so nothing adds to what is there
       progress_.leave_out(-work_of(one));
-      queue_.push_back({one, {}, nullptr, session.settings().run.retries});
+      queue_.push_back({std::move(one), {}, nullptr, session.settings().run.retries});
     }
   }
 

@@ -3,9 +3,11 @@
 #include "bake/assemble.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/names.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "blender/blender_session.h"
 #include "config/recipe_names.h"
 #include "encoding/flip_green.h"
@@ -193,49 +195,82 @@ Delivery delivered(const ReferenceInput& input, const LightmapHeader& header, bo
   }
 }
 
-/// Traces the targets of one kind and writes each as soon as it is complete. `show` gets the share of all
-/// work of this call that is done, and the target at work.
-void trace(const ReferenceInput& input, const Kind& kind, const std::vector<std::size_t>& targets,
-           const std::function<void(double, const Target&)>& show, ReferenceResult& result) {
+/// Targets of one call of gather(), with what is kept of them.
+struct Group {
+  Kind kind;
+  std::vector<std::size_t> targets;
   std::vector<GatherTarget> wanted;
-  for (const std::size_t i : targets) {
-    const Target& target = input.targets()[i];
-    wanted.push_back({result.headers[i].surface.get(), target.object, target.width, target.height});
+  GatherOptions options;
+  std::unique_ptr<KeptTraces> kept;
+  std::vector<bool> is_kept;  // [targets]
+  double work = 0;            // without what is kept
+};
+
+std::vector<Group> groups_of(const ReferenceInput& input, const std::vector<LightmapHeader>& headers) {
+  std::map<Kind, std::vector<std::size_t>> by_kind;
+  for (std::size_t i = 0; i < input.targets().size(); ++i) {
+    const Kind kind{input.targets()[i].flip_green, input.samples(i), input.subject.list.settings[i].seed,
+                    input.error(i)};
+    by_kind[kind].push_back(i);
   }
+  std::vector<Group> groups;
+  for (auto& [kind, targets] : by_kind) {
+    Group& group = groups.emplace_back();
+    group.kind = kind;
+    group.options = options_for(input, kind);
+    for (const std::size_t i : targets) {
+      const Target& target = input.targets()[i];
+      group.wanted.push_back(
+          {headers[i].surface.get(), target.object, target.width, target.height, hash64(target.key)});
+    }
+    group.kept = std::make_unique<KeptTraces>(input.subject.kept, group.wanted, group.options);
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      group.is_kept.push_back(group.kept->has(k));
+      if (!group.is_kept.back()) group.work += input.work(targets[k]);
+    }
+    group.targets = std::move(targets);
+  }
+  return groups;
+}
+
+/// Traces a group and writes each target as soon as it is complete. `show` gets the share of all work of this
+/// call that is done, and the target at work.
+void trace(const ReferenceInput& input, Group& group, const std::function<void(double, const Target&)>& show,
+           ReferenceResult& result) {
   const auto take = [&](std::size_t index, Gathered&& gathered) {
-    const std::size_t i = targets[index];
+    const std::size_t i = group.targets[index];
     result.record.traced[i] = {gathered.paths, gathered.rays, relative_error(gathered)};
-    result.outcome.rays += gathered.rays;
-    if (input.plan.is_bake && kind.error > 0) result.headers[i].metadata.samples = mean_samples(gathered);
-    result.outcome.deliveries[i] = delivered(input, result.headers[i], kind.flip_green, std::move(gathered));
+    if (!group.is_kept[index]) result.outcome.rays += gathered.rays;
+    if (input.plan.is_bake && group.kind.error > 0)
+      result.headers[i].metadata.samples = mean_samples(gathered);
+    result.outcome.deliveries[i] =
+        delivered(input, result.headers[i], group.kind.flip_green, std::move(gathered));
     result.headers[i].surface.reset();
   };
   gather(
-      input.subject.scene, wanted, options_for(input, kind), take,
-      [&](const GatherProgress& now) { show(now.share, input.targets()[targets[now.target]]); },
-      [] { return StopRequest::requested(); });
+      input.subject.scene, group.wanted, group.options, take,
+      [&](const GatherProgress& now) { show(now.share, input.targets()[group.targets[now.target]]); },
+      [] { return StopRequest::requested(); }, group.kept.get());
   if (StopRequest::requested()) throw Interrupted{StopRequest::signal()};
 }
 
-/// Traces kind after kind.
+/// Traces group after group.
 void trace_all(const ReferenceInput& input, const std::string& title, ReferenceResult& result) {
-  std::map<Kind, std::vector<std::size_t>> groups;
+  std::vector<Group> groups = groups_of(input, result.headers);
   double total = 0, done = 0;
-  for (std::size_t i = 0; i < input.targets().size(); ++i) {
-    const Target& target = input.targets()[i];
-    const Kind kind{target.flip_green, input.samples(i), input.subject.list.settings[i].seed, input.error(i)};
-    groups[kind].push_back(i);
-    total += input.work(i);
+  std::ptrdiff_t kept = 0;
+  for (const Group& group : groups) {
+    total += group.work;
+    kept += std::ranges::count(group.is_kept, true);
   }
+  if (kept > 0) log::info("{} of {} traced before", kept, counted(input.targets().size(), "target"));
   Progress progress(title, progress_for(log::is_quiet(), log::is_jsonl()));
-  for (const auto& [kind, targets] : groups) {
-    double group = 0;
-    for (const std::size_t i : targets) group += input.work(i);
+  for (Group& group : groups) {
     const auto show = [&](double share, const Target& target) {
-      progress.update((done + share * group) / total, target.key);
+      progress.update((done + share * group.work) / std::max(1.0, total), target.key);
     };
-    trace(input, kind, targets, show, result);
-    done += group;
+    trace(input, group, show, result);
+    done += group.work;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "encoding/basis_set.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/earlier_lightmaps.h"
+#include "pipeline/reference/kept_traces.h"
 #include "pipeline/reference/reference_plan.h"
 #include "pipeline/scene/make_targets.h"
 #include "trace/scene.h"
@@ -22,6 +23,7 @@ struct ReferenceSubject {
   const TargetList& list;  // of the scene's objects; samples and seed as its settings say
   const std::vector<BasisDirection>& bases;
   EarlierLightmaps earlier = {};  // stays in the manifest
+  TraceCache kept = {};           // what was traced before is not traced again
 };
 
 struct ReferenceOutcome {

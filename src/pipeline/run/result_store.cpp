@@ -1,5 +1,7 @@
 #include "pipeline/run/result_store.h"
 
+#include "base/hash.h"
+
 #include <cstdlib>
 
 namespace rnmbake {
@@ -31,6 +33,11 @@ Store open_store(const BakeSettings& settings) {
   const bool keeps_none = settings.run.sandbox && is_shared;
   return Store(keeps_none ? fs::path() : cache_folder(settings.run.cache),
                std::int64_t{settings.run.cache_limit} << 20);
+}
+
+const std::string& program_hash() {
+  static const std::string hash = file_hash128_hex("/proc/self/exe");
+  return hash;
 }
 
 }  // namespace rnmbake

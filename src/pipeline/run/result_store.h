@@ -5,6 +5,7 @@
 #include "jobs/store.h"
 
 #include <filesystem>
+#include <string>
 
 namespace rnmbake {
 
@@ -15,5 +16,8 @@ namespace rnmbake {
 /// Of a sandboxed run only where the folder was named: scenes of strangers do not come into the user's own
 /// cache. Nothing is made or read before it is used.
 [[nodiscard]] Store open_store(const BakeSettings& settings);
+
+/// Hash of this program, for keys of what it computes itself: another build may compute it otherwise.
+[[nodiscard]] const std::string& program_hash();
 
 }  // namespace rnmbake

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "pipeline/scene/kept_scene.h"
 #include "pipeline/scene/launch_answer.h"
 
 #include <algorithm>
@@ -66,43 +67,64 @@ void keep_unwrapped(SceneSurvey& survey, const std::vector<Target>& targets) {
   }
 }
 
+DiffuseScene exported_before(const BlenderSession& session) {
+  const fs::path file = session.settings().scene.file;
+  refuse_choice(session.settings().scene);
+  DiffuseScene scene = read_diffuse_scene(file);
+  put_inputs_first(scene.survey, {{"scene", fs::absolute(file).lexically_normal(), true}});
+  log_warnings(scene.survey);
+  return scene;
+}
+
+ExportedScene exported_by_blender(BlenderSession& session, bool anew) {
+  const fs::path file = session.settings().scene.file;
+  KeptScene kept(session, anew);
+  if (auto found = kept.find()) {
+    log::info("{}: unchanged since it was exported", file.filename().string());
+    log_warnings(found->diffuse_scene.survey);
+    return std::move(*found);
+  }
+  ImportedScene own = import_scene(session, file);
+  LambertScene lambert = make_lambert_scene(session, own.blend);
+  log::info("writing down the scene for the tracer");
+  ExportedScene result{launch_export(session, lambert.blend), {lambert.blend, own.blend}};
+  SceneSurvey& survey = result.diffuse_scene.survey;
+  survey.scene_file = file.string();
+  survey.digest = std::move(lambert.digest);
+  add_inputs(own.inputs, lambert.inputs);
+  put_inputs_first(survey, std::move(own.inputs));
+  log_warnings(survey, lambert.warnings);
+  kept.keep(result);
+  return result;
+}
+
 }  // namespace
 
 bool is_rnmscene(const fs::path& file) {
   return file.extension() == diffuse_scene_ending;
 }
 
-ExportResult export_surfaces(BlenderSession& session) {
+ExportResult export_surfaces(BlenderSession& session, bool anew) {
   const fs::path file = session.settings().scene.file;
   ExportResult result;
-  std::vector<std::string> logged;
   if (is_rnmscene(file)) {
-    refuse_choice(session.settings().scene);
-    result.diffuse_scene = read_diffuse_scene(file);
-    put_inputs_first(result.diffuse_scene.survey, {{"scene", fs::absolute(file).lexically_normal(), true}});
+    result.diffuse_scene = exported_before(session);
   } else {
-    ImportedScene own = import_scene(session, file);
-    LambertScene lambert = make_lambert_scene(session, own.blend);
-    logged = std::move(lambert.warnings);
-    result.blends = SceneBlends{lambert.blend, own.blend};
-    log::info("writing down the scene for the tracer");
-    result.diffuse_scene = launch_export(session, lambert.blend);
-    result.diffuse_scene.survey.scene_file = file.string();
-    result.diffuse_scene.survey.digest = std::move(lambert.digest);
-    add_inputs(own.inputs, lambert.inputs);
-    put_inputs_first(result.diffuse_scene.survey, std::move(own.inputs));
+    ExportedScene exported = exported_by_blender(session, anew);
+    result.diffuse_scene = std::move(exported.diffuse_scene);
+    result.blends = std::move(exported.blends);
   }
-  log_warnings(result.diffuse_scene.survey, logged);
   if (result.diffuse_scene.survey.objects.empty()) {
     fail(ExitCode::invalid_input,
          "{}: nothing in this scene renders as a surface: is everything hidden from rendering?",
          file.string());
   }
+  result.content = light_hash(result.diffuse_scene);
   return result;
 }
 
-ExportResult export_scene(BlenderSession& session) {
-  ExportResult result = export_surfaces(session);
+ExportResult export_scene(BlenderSession& session, bool anew) {
+  ExportResult result = export_surfaces(session, anew);
   result.list = make_targets(session.config(), result.diffuse_scene.survey);
   keep_unwrapped(result.diffuse_scene.survey, result.list.targets);
   return result;

@@ -180,7 +180,7 @@ StudyPoint study_point(const VariantBase& base, const Splitting& splitting, cons
   std::ranges::replace(name, ' ', '-');
   const std::filesystem::path folder = std::filesystem::path("study") / name;
   const BakeVariant recipe{BakingSettings::Recipe::flat_normal_map, SceneSettings::Materials::lambert,
-                           folder / flat_normal_map_name, seed};
+                           folder / flat_normal_map_name, seed, true};
   StudyPoint point;
   point.name = splitting.name;
   point.targets = splitting.list.targets.size();

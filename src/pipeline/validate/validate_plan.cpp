@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "config/recipe_names.h"
+#include "pipeline/run/result_store.h"
 #include "pipeline/scene/fit_camera.h"
 #include "pipeline/validate/validate_scope.h"
 
@@ -16,9 +17,9 @@ namespace {
 using Recipe = BakingSettings::Recipe;
 using Materials = SceneSettings::Materials;
 
-ExportResult exported_for(BlenderSession& session, bool with_camera) {
-  ExportResult exported = export_scene(session);
-  if (with_camera) give_camera(exported);
+ExportResult exported_for(BlenderSession& session, const ValidateOptions& options) {
+  ExportResult exported = export_scene(session, options.anew);
+  if (options.view > 0) give_camera(exported);
   return exported;
 }
 
@@ -65,10 +66,11 @@ ValidatePlan::ValidatePlan(BlenderSession& used, const std::vector<BasisDirectio
     : session(used),
       view(options.view),
       probes(options.probes),
-      exported(exported_for(used, options.view > 0)),
+      exported(exported_for(used, options)),
       truth(without_limit(plan_reference(used.config(), exported.diffuse_scene.survey.blender_version))),
       scene(exported.diffuse_scene, truth.blender_version),
-      base{used, exported, scene, bases},
+      store(open_store(used.settings())),
+      base{used, exported, scene, bases, store, options.anew},
       decomposed(chosen(exported, options.decompose)),
       own_materials(has_own_materials(exported.diffuse_scene)),
       bounce_limit(used.settings().bake.bounces),

@@ -30,6 +30,7 @@ struct ValidatePlan {
   ExportResult exported;
   ReferencePlan truth;  // the reference without a limit of bounces, whatever that of the bakes
   TraceScene scene;
+  Store store;
   VariantBase base;
   TargetList decomposed;                  // what the published recipe bakes, too
   bool own_materials;                     // some are not diffuse; the lambert scene has substitutes

@@ -187,6 +187,7 @@ void add_notes(const ValidatePlan& plan, Report& report) {
 Validation judged(const ValidatePlan& plan, const Findings& found) {
   Validation result{compared(plan, truth_variant(plan), Recipe::receiver, true), {}, found.complete};
   result.inputs = plan.exported.diffuse_scene.survey.inputs;
+  result.digest = plan.exported.diffuse_scene.survey.digest;
   Report& receiver = result.receiver;
   receiver.finding = judge(plan, receiver);
   receiver.study = found.study;

@@ -18,6 +18,7 @@ struct Validation {
   std::optional<Report> recipe;        // none where no object is decomposed
   bool complete = true;                // no object failed in any bake
   std::vector<InputFile> inputs = {};  // that the scene read
+  SceneDigest digest = {};
 };
 
 /// Bakes the scene of the settings by both recipes, twice each with half of the samples, so that the noise is

@@ -1,8 +1,10 @@
 #include "pipeline/validate/variants.h"
 
 #include "base/files.h"
+#include "pipeline/scene/scene_key.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace rnmbake {
 namespace {
@@ -31,6 +33,16 @@ std::filesystem::path output_of(const VariantBase& base) {
   return base.session.settings().output.dir;
 }
 
+/// Keys of their own, for the samples are one sequence; and the lambert scene's content, whose baked colours
+/// are not in the digest of the user's scene.
+PassCache cache_for(const VariantBase& base, const BlenderSession& session, const BakeVariant& variant) {
+  if (base.anew || variant.timed) return {};
+  KeyMaker key;
+  key.add("scene", scene_key(session, base.exported.diffuse_scene.survey)).add("sequences", std::int64_t{1});
+  if (variant.materials == SceneSettings::Materials::lambert) key.add("content", base.exported.content);
+  return {base.store, key.make("scene")};
+}
+
 }  // namespace
 
 std::filesystem::path half_folder(const VariantBase& base, const BakeVariant& variant, int half) {
@@ -53,6 +65,7 @@ BakeOutcome bake_half(const VariantBase& base, const TargetList& list, const Bak
   SceneBlends blends = base.exported.blends.value();
   if (!lambert) blends.shown = blends.own;
   DispatchRules rules;
+  rules.cache = cache_for(base, session, variant);
   rules.halves = false;  // the other half is a bake of its own
   return run_bake(session, {base.exported.diffuse_scene.survey, halved, base.bases, blends, {}, rules});
 }
@@ -64,7 +77,8 @@ ReferenceOutcome trace_variant(const VariantBase& base, const TargetList& list, 
     object.samples *= traced_for_each_baked;
     object.seed += variant.seed;
   }
-  return run_reference({base.scene, more, base.bases}, config.globals, variant.plan, variant.title);
+  const TraceCache kept{&base.store, base.exported.content, base.anew};
+  return run_reference({base.scene, more, base.bases, {}, kept}, config.globals, variant.plan, variant.title);
 }
 
 }  // namespace rnmbake

@@ -1,6 +1,7 @@
 // pipeline/validate/variants.h - one scene baked and traced in several ways, each into a folder of its own.
 #pragma once
 
+#include "jobs/store.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/scene/export_scene.h"
@@ -17,6 +18,8 @@ struct VariantBase {
   const ExportResult& exported;
   const TraceScene& scene;
   const std::vector<BasisDirection>& bases;
+  Store& store;       // what was baked and traced before is not made again, unless ...
+  bool anew = false;  // ... all is to be made anew
 };
 
 /// Two bakes with half of the samples each and different seeds.
@@ -25,6 +28,7 @@ struct BakeVariant {
   SceneSettings::Materials materials = SceneSettings::Materials::lambert;
   std::filesystem::path folder;  // below the output folder; the halves lie in 1/ and 2/
   int seed = 0;                  // added to each target's own; the second half has the next one
+  bool timed = false;            // its time counts, so that all of it is baked
 };
 
 /// The folder of a half, 0 or 1.
