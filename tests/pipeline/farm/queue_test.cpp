@@ -135,6 +135,8 @@ TEST_F(Queue, SaysWhatItSees) {
   const std::vector<std::string> lines = ended_without_result(plan_, jobs, seen, {{0, {}}});
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0], "task 1: TIMEOUT on n2, " + (plan_.folder / "slurm" / "101_1.log").string());
+  EXPECT_EQ(ended_without_result(plan_, jobs, {{"102", std::nullopt, "CANCELLED", "", ""}}, {}),
+            (std::vector<std::string>{"tasks 3 to 5, what had not begun of them: CANCELLED"}));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "pipeline/farm/queue/queue_view.h"
 
+#include <algorithm>
 #include <set>
 
 #include <spdlog/fmt/fmt.h>
@@ -40,8 +41,13 @@ std::vector<std::string> ended_without_result(const FarmPlan& plan, const PlanJo
                                               const std::map<std::size_t, TaskResult>& results) {
   std::vector<std::string> lines;
   for (const SlurmJob& job : seen) {
+    if (job.is_alive()) continue;
+    const auto whole = std::ranges::find(jobs.arrays, job.index ? "" : job.id, &JobArray::id);
+    if (whole != jobs.arrays.end())  // what of an array had not begun
+      lines.push_back(fmt::format("tasks {} to {}, what had not begun of them: {}", whole->first,
+                                  whole->first + whole->count - 1, job.state));
     const auto task = jobs.task_of(job);
-    if (!task || job.is_alive() || results.contains(*task)) continue;
+    if (!task || results.contains(*task)) continue;
     lines.push_back(fmt::format("task {}: {}{}, {}", *task, job.state,
                                 job.nodes.empty() ? "" : " on " + job.nodes, log_of(plan, job).string()));
   }

@@ -25,7 +25,8 @@ struct QueueView {
 /// "Slurm: 2 running on n1, n2; 3 waiting; 1 ended".
 [[nodiscard]] std::string describe(const QueueView& view);
 
-/// Tasks that ended in the queue and left no result: "task 3: TIMEOUT on n2, PLAN/slurm/7_3.log".
+/// Tasks that ended in the queue and left no result: "task 3: TIMEOUT on n2, PLAN/slurm/7_3.log"; those that
+/// had not begun by their array.
 [[nodiscard]] std::vector<std::string> ended_without_result(const FarmPlan& plan, const PlanJobs& jobs,
                                                             const std::vector<SlurmJob>& seen,
                                                             const std::map<std::size_t, TaskResult>& results);
