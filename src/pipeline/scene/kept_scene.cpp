@@ -67,7 +67,7 @@ bool is_as_it_was(const json& file) {
 json to_json(const SceneDigest& digest) {
   json entries = json::array();
   for (const DigestEntry& entry : digest.entries)
-    entries.push_back({{"what", entry.what}, {"hash", entry.hash}});
+    entries.push_back({{"what", entry.what}, {"hash", entry.hash}, {"uses", entry.uses}});
   return entries;
 }
 
