@@ -94,6 +94,10 @@ foreach(CLASS OpenJobDescription Flamenco)
   set_tests_properties(farm.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 endforeach()
 
+# Scenes handed over to engines: the Khronos validator, three.js in a real browser.
+rnm_check(deliver.check blender 1200 with_blender/deliver/deliver)
+set_tests_properties(deliver.check PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)
 target_link_libraries(sample_report PRIVATE report rnm_warnings)

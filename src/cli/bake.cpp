@@ -240,6 +240,10 @@ int bake_all(const std::vector<ResolvedConfig>& configs, const BakeFlags& flags,
 
 }  // namespace
 
+int bake_scene(ResolvedConfig config, RunReport& made) {
+  return bake(std::move(config), {}, made);
+}
+
 std::function<int()> add_bake_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "Bake a scene into directional lightmaps");
   auto flags = std::make_shared<SettingsFlags>(*command);

@@ -22,7 +22,7 @@ FLOORS = {
 MOST_FILES, MOST_LINES = 25, 350  # of a folder (a header and its source count as one), of a file
 SCRIPT_FLOORS = {
     "core": 0, "scene_ops": 1, "nodes": 2, "opening": 2, "survey": 2, "objects": 2,
-    "importing": 3, "lambert": 3, "bake": 3, "saved": 3, "export": 4, "render": 4,
+    "importing": 3, "lambert": 3, "bake": 3, "saved": 3, "export": 4, "render": 4, "deliver": 4,
 }
 OWNED = {
     "OpenImageIO/": {"image"},

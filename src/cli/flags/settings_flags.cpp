@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -92,14 +93,16 @@ std::string joined(const std::vector<std::string>& parts) {
 
 }  // namespace
 
-SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose, std::span<const char* const> only)
+SettingsFlags::SettingsFlags(CLI::App& command, Purpose purpose, std::span<const char* const> only,
+                             std::span<const char* const> without)
     : purpose_(purpose) {
   if (only.empty()) command.footer(fmt::format(epilogue, command.get_name()));
   const std::string help = fmt::format("scene (.blend, .glb, .gltf{}) or project file (.toml)",
                                        purpose == Purpose::reference ? ", .rnmscene" : "");
   scene_ = command.add_option("SCENE", help);
   for (const Setting& setting : settings()) {
-    if (only.empty() && setting.serves(purpose)) add(command, setting, group_of(setting));
+    const bool left_out = std::ranges::any_of(without, [&](const char* key) { return setting.key == key; });
+    if (only.empty() && setting.serves(purpose) && !left_out) add(command, setting, group_of(setting));
   }
   for (const char* key : only) add(command, *find_setting(key), "Settings");
   print_config_ = command.add_flag("--print-config");
@@ -132,6 +135,20 @@ std::vector<SettingOverride> SettingsFlags::given_flags() const {
   return flags;
 }
 
+<<<<<<< HEAD
+=======
+std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
+  return resolve(scene_argument(), given_flags(), out);
+}
+
+std::optional<ResolvedConfig> SettingsFlags::resolve_with(const std::string& scene,
+                                                          std::vector<SettingOverride> more) const {
+  std::vector<SettingOverride> flags = given_flags();
+  std::ranges::move(more, std::back_inserter(flags));
+  return resolve(scene.empty() ? scene_argument() : scene, std::move(flags), std::cout);
+}
+
+>>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
 void SettingsFlags::take_several_scenes(CLI::App& command) {
   const std::string help = scene_->get_description();
   command.remove_option(scene_);  // one that takes a single word cannot be told to take more
@@ -162,6 +179,7 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
   const std::vector<std::string> arguments =
       scene_->count() > 0 ? scene_->results() : std::vector<std::string>{""};
   std::vector<ResolvedConfig> all;
+<<<<<<< HEAD
   std::set<fs::path> folders;
   for (const std::string& argument : arguments) {
     for (const ProjectFile& project : projects_of(argument)) {
@@ -171,6 +189,15 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
       if (!dir.empty() && arguments.size() > 1) dir /= fs::path(argument).stem();
       if (!dir.empty() && is_in_shared_folder(project, *config)) dir /= config->globals.scene.file.stem();
       if (!dir.empty() && !folders.insert(fs::absolute(dir).lexically_normal()).second)
+=======
+  std::set<std::string> names;
+  for (const std::string& scene : scenes) {
+    auto config = resolve(scene, given_flags(), std::cout);
+    if (!config) return {};
+    const std::string name = std::filesystem::path(scene).stem().string();
+    if (scenes.size() > 1) {
+      if (!names.insert(name).second)
+>>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
         fail(ExitCode::usage,
              "two of the scenes would write into {}, {} and another; bake one after the other, each with an "
              "--output of its own, or give one of a project's [[scenes]] a dir of its own",
@@ -182,6 +209,7 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
   return all;
 }
 
+<<<<<<< HEAD
 std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
   const std::string argument = scene_argument();
   const std::vector<ProjectFile> projects = projects_of(argument);
@@ -196,11 +224,16 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
 }
 
 std::optional<ResolvedConfig> SettingsFlags::resolve(const ProjectFile& project, const std::string& argument,
+=======
+std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene,
+                                                     std::vector<SettingOverride> flags,
+>>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
                                                      std::ostream& out) const {
   if (print_reference_->count() > 0) {
     out << settings_reference();
     return std::nullopt;
   }
+<<<<<<< HEAD
   const Setting* file = find_setting("file");
   std::vector<SettingOverride> flags = given_flags();
   std::vector<SettingOverride> environment = read_environment(process_environment());
@@ -214,6 +247,21 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(const ProjectFile& project,
       fail(ExitCode::usage, "{} and --file both name a scene; give one of them", argument);
     SettingOverride one{file, argument, SettingSource::flag, "argument SCENE"};
     flags.push_back(std::move(one));
+=======
+  ProjectFile project;
+  if (!scene.empty()) {
+    if (is_project_path(scene)) {
+      project = read_project(scene);
+    } else {
+      const Setting* file = find_setting("file");
+      for (const SettingOverride& flag : flags) {
+        if (flag.setting == file)
+          fail(ExitCode::usage, "{} and --file both name a scene; give one of them", scene);
+      }
+      SettingOverride one{file, scene, SettingSource::flag, "argument SCENE"};
+      flags.push_back(std::move(one));
+    }
+>>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
   }
   ResolvedConfig config = rnmbake::resolve(project, environment, flags);
   if (print_config_->count() > 0) {

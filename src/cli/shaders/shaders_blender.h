@@ -1,4 +1,4 @@
-// cli/shaders_blender.h - `rnmbake shaders --engine blender`: decoders as groups of nodes.
+// cli/shaders/shaders_blender.h - `rnmbake shaders --engine blender`: decoders as groups of nodes.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "cli/shaders_blender.h"
+#include "cli/shaders/shaders_blender.h"
 
 #include "base/error.h"
 #include "base/files.h"

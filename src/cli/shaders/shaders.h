@@ -1,4 +1,4 @@
-// cli/shaders.h - the command `rnmbake shaders`: the decoders as files that an engine takes.
+// cli/shaders/shaders.h - the command `rnmbake shaders`: the decoders as files that an engine takes.
 #pragma once
 
 #include <functional>

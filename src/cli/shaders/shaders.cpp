@@ -1,10 +1,10 @@
-#include "cli/shaders.h"
+#include "cli/shaders/shaders.h"
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text_table.h"
-#include "cli/shaders_blender.h"
+#include "cli/shaders/shaders_blender.h"
 #include "encoding/codecs/make_codec.h"
 #include "pipeline/run/hold_folder.h"
 #include "shaders/catalogue.h"

@@ -1,0 +1,1 @@
+"""The saved scene, into files for engines."""

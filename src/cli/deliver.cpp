@@ -1,0 +1,160 @@
+#include "cli/deliver.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "blender/late_blender.h"
+#include "cli/bake.h"
+#include "cli/flags/settings_flags.h"
+#include "cli/run_report.h"
+#include "pipeline/deliver/deliver.h"
+#include "process/stop.h"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/ranges.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* own_maps = ".lightmaps";  // in the output folder; engines pass hidden folders over
+
+constexpr std::array without_flags{"engine"};  // that which bakes: --bake-engine
+
+struct DeliverFlags {
+  std::string engine, bake_engine;
+  fs::path lightmaps;
+  DeliverOptions options;
+};
+
+DeliveryEngine engine_of(const std::string& name) {
+  return name == "threejs" ? DeliveryEngine::threejs : DeliveryEngine::gltf;
+}
+
+void say_delivered(const DeliverySummary& summary, const fs::path& folder) {
+  for (const std::string& note : summary.notes) log::warn("{}", note);
+  log::info("{} on {}, {:.2f} texels for each covered one", counted(summary.layout.maps.size(), "lightmap"),
+            counted(summary.layout.pages.size(), "page"), summary.layout.texels_for_each_covered());
+  log::info("{} in {}, {} of them written anew", counted(summary.files.size(), "file"), folder.string(),
+            summary.written);
+}
+
+void report(const DeliverySummary& summary, RunReport& made) {
+  made.files = summary.files;
+  made.main_file = made.output / summary.files.back();
+  made.more["pages"] = summary.layout.pages.size();
+  made.more["lightmaps"] = summary.layout.maps.size();
+  made.more["texels_for_each_covered"] = summary.layout.texels_for_each_covered();
+  made.more["written"] = summary.written;
+  made.more["notes"] = summary.notes;
+}
+
+/// Where the lightmaps lie; bakes them first where a scene was named and not a folder of them.
+struct Source {
+  fs::path lightmaps;
+  int code = 0;  // of the bake
+};
+
+Source bake_first(ResolvedConfig config, const DeliverFlags& flags, RunReport& made) {
+  fs::path& output = config.globals.output.dir;
+  if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+  output = flags.lightmaps.empty() ? output / own_maps : flags.lightmaps;
+  const fs::path lightmaps = output;
+  return {lightmaps, bake_scene(std::move(config), made)};
+}
+
+/// What a delivery asks of the bake, beside the user's own flags.
+std::vector<SettingOverride> settings_of_bake(const DeliverFlags& flags) {
+  std::vector<SettingOverride> more{
+      {find_setting("save_scene"), std::string("always"), SettingSource::flag, "rnmbake deliver"}};
+  if (!flags.bake_engine.empty())
+    more.push_back({find_setting("engine"), flags.bake_engine, SettingSource::flag, "flag --bake-engine"});
+  return more;
+}
+
+int run_deliver(const SettingsFlags& settings, const DeliverFlags& flags, RunReport& made) {
+  DeliverOptions options = flags.options;
+  options.engine = engine_of(flags.engine);
+  const fs::path given = settings.scene_argument();
+  Source source;
+  if (fs::is_directory(given)) {
+    source.lightmaps = given;
+  } else {
+    auto config = settings.resolve_with("", settings_of_bake(flags));
+    if (!config) return static_cast<int>(ExitCode::ok);
+    StopRequest::install();
+    source = bake_first(std::move(*config), flags, made);
+  }
+  const auto config = settings.resolve_with(scene_to_deliver(source.lightmaps).string(), {});
+  if (!config) return static_cast<int>(ExitCode::ok);
+  StopRequest::install();
+  if (config->globals.output.dir.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+  LateBlender blender(config->globals);
+  BlenderSession session(*config, blender);
+  Progress progress("delivering", progress_for(log::is_quiet(), log::is_jsonl()));
+  const DeliverySummary summary =
+      deliver(session, source.lightmaps, options,
+              [&](double share, const std::string& what) { progress.update(share, what); });
+  made.output = config->globals.output.dir;
+  report(summary, made);
+  say_delivered(summary, made.output);
+  return source.code;
+}
+
+}  // namespace
+
+std::function<int()> add_deliver_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("deliver", "Hand a scene over to an engine, with its lightmaps");
+  auto settings = std::make_shared<SettingsFlags>(*command, Purpose::bake, std::span<const char* const>(),
+                                                  std::span<const char* const>(without_flags));
+  auto flags = std::make_shared<DeliverFlags>();
+  command->add_option("--engine", flags->engine, "for whom")
+      ->required()
+      ->check(CLI::IsMember({"gltf", "threejs"}).description(""))
+      ->type_name("gltf|threejs")
+      ->group("Delivery");
+  command->add_option("--bake-engine", flags->bake_engine, "who bakes: `rnmbake bake --engine` [cycles]")
+      ->check(CLI::IsMember({"cycles", "embree"}).description(""))
+      ->type_name("cycles|embree")
+      ->group("Delivery");
+  command
+      ->add_option("--encoding", flags->options.codec.name,
+                   "of the directional pages [gltf: flat, threejs: rnm-vrad]")
+      ->check(CLI::IsMember(encodings_for(DeliveryEngine::gltf)).description(""))
+      ->type_name(fmt::format("{}", fmt::join(encodings_for(DeliveryEngine::gltf), "|")))
+      ->group("Delivery");
+  command->add_option("--pages", flags->options.pages.side, "largest side of the pages, texels [4096]")
+      ->check(CLI::Range(16, 16384).description(""))
+      ->type_name("SIDE")
+      ->group("Delivery");
+  command
+      ->add_option("--page-padding", flags->options.pages.padding,
+                   "texels around each map that are filled from it, for filters and mipmaps [4]")
+      ->check(CLI::Range(1, 64).description(""))
+      ->type_name("TEXELS")
+      ->group("Delivery");
+  command
+      ->add_option("--lightmaps", flags->lightmaps,
+                   "folder to bake into, or that a bake wrote [DIR/.lightmaps]")
+      ->type_name("DIR")
+      ->group("Delivery");
+  command->add_flag("--with-lights", flags->options.lights, "put the scene's lamps into the .glb, too")
+      ->group("Delivery");
+  auto run = std::make_shared<RunFlags>(*command);
+  return [settings, flags, run] {
+    return run->run([&](RunReport& made) { return run_deliver(*settings, *flags, made); });
+  };
+}
+
+}  // namespace rnmbake

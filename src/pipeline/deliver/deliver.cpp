@@ -1,0 +1,237 @@
+#include "pipeline/deliver/deliver.h"
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/read_file.h"
+#include "base/version.h"
+#include "encoding/codecs/make_codec.h"
+#include "pipeline/convert/convert.h"
+#include "pipeline/deliver/delivery_files.h"
+#include "pipeline/deliver/flat_picture.h"
+#include "pipeline/deliver/glb.h"
+#include "pipeline/deliver/web_files.h"
+#include "pipeline/lightmaps/manifest_file.h"
+#include "pipeline/run/hold_folder.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include <spdlog/fmt/ranges.h>
+
+namespace rnmbake {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* flat_pages = "flat";
+
+ordered_json pair_of(const Imath::V2d& pair) {
+  return {pair.x, pair.y};
+}
+
+/// Name of each object's stand-in in the saved scene, by key.
+std::map<std::string, std::string> saved_objects(const nlohmann::json& manifest) {
+  std::map<std::string, std::string> names;
+  for (const nlohmann::json& object : manifest.at("objects"))
+    names[object.at("key").get<std::string>()] = object.value("object_in_scene", "");
+  return names;
+}
+
+void check_objects(const nlohmann::json& manifest, const fs::path& file) {
+  for (const nlohmann::json& object : manifest.at("objects")) {
+    if (object.at("status") != "baked") continue;
+    if (!object.value("part", "").empty())
+      fail(ExitCode::unsupported,
+           "{}: '{}' is a part of an object (--split), and the .glb has one lightmap for each object; bake "
+           "without "
+           "--split",
+           file.string(), object.at("key").get<std::string>());
+    if (object.value("object_in_scene", "").empty() || object.value("uv_index", -1) != 1)
+      fail(ExitCode::unsupported, "{}: the saved scene has no UVs of '{}'; bake with --save-scene always",
+           file.string(), object.at("key").get<std::string>());
+  }
+}
+
+/// What one delivery knows while it is made.
+class EngineDelivery {
+ public:
+  EngineDelivery(BlenderSession& session, const fs::path& lightmaps, const DeliverOptions& options,
+                 const std::function<void(double, std::string)>& progress)
+      : session_(session),
+        options_(options),
+        progress_(progress),
+        encoding_(options.codec.name.empty() ? encodings_for(options.engine).front() : options.codec.name),
+        lightmaps_(lightmaps),
+        folder_(open_lightmaps(lightmaps)),
+        manifest_(read_manifest(lightmaps / "manifest.json")),
+        files_(session.new_folder("delivery")) {
+    if (folder_.places.empty())
+      fail(ExitCode::invalid_input, "{} holds no lightmap: none was baked", lightmaps.string());
+  }
+
+  DeliverySummary make() {
+    summary_.layout = lay_out_pages(folder_, options_.pages);
+    write_encoded_pages();
+    write_flat_pictures();
+    write_scene();
+    if (options_.engine == DeliveryEngine::threejs)
+      for (const auto& [name, text] : web_files()) files_.add(name, text);
+    summary_.written = files_.put_into(session_.settings().output.dir, std::move(record_));
+    summary_.files = files_.names();
+    return std::move(summary_);
+  }
+
+ private:
+  [[nodiscard]] const PageLayout& layout() const { return summary_.layout; }
+
+  void say(double share, const std::string& what) const {
+    if (progress_) progress_(share, what);
+  }
+
+  /// An EXR for each layer of each page, of the encoding.
+  void write_encoded_pages() {
+    LightmapFolder source = folder_;
+    std::vector<std::string> layers{""};
+    if (encoding_ != flat_pages) {
+      const fs::path converted = session_.new_folder("converted");
+      CodecOptions codec = options_.codec;
+      codec.name = encoding_;
+      (void)convert_lightmaps(lightmaps_, {.codec = codec, .depth = Depth::half}, converted,
+                              [&](double share, const std::string& key) { say(0.5 * share, key); });
+      source = open_lightmaps(converted);
+      const LoadedLightmap first = load_lightmap(source.places.front());
+      layers = make_codec(codec, {first.file, first.metadata.bases})->layers();
+      green_ = first.metadata.green;
+    }
+    for (std::size_t page = 0; page < layout().pages.size(); ++page) {
+      say(0.5 + 0.2 * double(page) / double(layout().pages.size()), fmt::format("page {}", page));
+      pages_.push_back(write_page(source, layers, page));
+    }
+    if (options_.engine == DeliveryEngine::threejs) decoder_ = web_decoder(encoding_, layers);
+  }
+
+  ordered_json write_page(const LightmapFolder& source, const std::vector<std::string>& layers,
+                          std::size_t page) {
+    ordered_json names = ordered_json::object();
+    for (Layer& layer : compose_page(source, layout(), page)) {
+      if (std::ranges::find(layers, layer.name) == layers.end()) continue;
+      const std::string said = layer.name.empty() ? flat_pages : layer.name;
+      const std::string file = fmt::format("page{}.{}.exr", page, said);
+      layer.name.clear();
+      write_exr(files_.add(file), {{std::move(layer)}, {}}, Depth::half);
+      names[said] = file;
+    }
+    const RectSize size = layout().pages[page];
+    return {{"width", size.width}, {"height", size.height}, {"layers", std::move(names)}};
+  }
+
+  /// Of the bakes themselves, for the .glb.
+  void write_flat_pictures() {
+    std::vector<FloatImage> flat, coverage;
+    for (std::size_t page = 0; page < layout().pages.size(); ++page) {
+      for (Layer& layer : compose_page(folder_, layout(), page)) {
+        if (layer.name.empty()) flat.push_back(std::move(layer.pixels));
+        if (layer.name == "coverage") coverage.push_back(std::move(layer.pixels));
+      }
+      if (flat.size() != coverage.size())
+        fail(ExitCode::unsupported, "{} has no flat bake, which the .glb shows; add 'flat' to --bases",
+             lightmaps_.string());
+    }
+    std::vector<const FloatImage*> flats, coverages;
+    for (const FloatImage& image : flat) flats.push_back(&image);
+    for (const FloatImage& image : coverage) coverages.push_back(&image);
+    white_ = white_of(flats, coverages);
+    const fs::path folder = session_.new_folder("pictures");
+    for (std::size_t page = 0; page < flat.size(); ++page) {
+      pictures_.push_back(folder / fmt::format("page{}.png", page));
+      const PictureMetrics lost = write_flat_picture(pictures_.back(), flat[page], coverage[page], white_);
+      pages_[page]["flat_picture"] = {{"white", white_},
+                                      {"relative_bias", lost.relative_bias.value},
+                                      {"relative_rmse", lost.relative_rmse.value},
+                                      {"max", lost.max}};
+    }
+  }
+
+  void write_scene() {
+    say(0.8, "scene.glb");
+    const std::map<std::string, std::string> saved = saved_objects(manifest_);
+    std::vector<std::string> objects;
+    for (const PagedMap& map : layout().maps) objects.push_back(saved.at(map.key));
+    record_ = {{"schema_version", 1},      {"generator", fmt::format("rnmbake {}", version)},
+               {"scene", "scene.glb"},     {"encoding", encoding_},
+               {"units", "E/pi"},          {"space", "tangent"},
+               {"green", name_of(green_)}, {"texcoord", 1},
+               {"pages", pages_}};
+    const GlbRequest request{pictures_, pi * white_, record_, options_.lights};
+    const GlbResult glb = write_glb(session_, layout(), objects, request, files_.add("scene.glb"));
+    summary_.notes = glb.notes;
+    ordered_json list = ordered_json::array();
+    for (const PagedMap& map : layout().maps) {
+      const auto found = glb.nodes.find(map.key);
+      if (found == glb.nodes.end()) continue;
+      const RectSize page = layout().pages[map.page];
+      list.push_back({{"key", map.key},
+                      {"node", found->second.node},
+                      {"name", found->second.name},
+                      {"mesh", found->second.mesh},
+                      {"page", map.page},
+                      {"scale", pair_of(map.scale(page))},
+                      {"offset", pair_of(map.offset(page))}});
+    }
+    record_["objects"] = std::move(list);
+    record_["notes"] = glb.notes;
+    if (!decoder_.is_null()) record_["decoder"] = decoder_;
+  }
+
+  BlenderSession& session_;
+  const DeliverOptions& options_;
+  const std::function<void(double, std::string)>& progress_;
+  std::string encoding_;
+  fs::path lightmaps_;
+  LightmapFolder folder_;
+  nlohmann::json manifest_, decoder_;
+  DeliveryFiles files_;
+  DeliverySummary summary_;
+  ordered_json pages_ = ordered_json::array(), record_;
+  std::vector<fs::path> pictures_;
+  Green green_ = Green::y_up;
+  float white_ = 1;
+};
+
+}  // namespace
+
+const std::vector<std::string>& encodings_for(DeliveryEngine engine) {
+  static const std::vector<std::string> with_flat = [] {
+    std::vector<std::string> all{flat_pages};
+    std::ranges::copy(web_encodings(), std::back_inserter(all));
+    return all;
+  }();
+  return engine == DeliveryEngine::gltf ? with_flat : web_encodings();
+}
+
+fs::path scene_to_deliver(const fs::path& lightmaps) {
+  const fs::path file = lightmaps / "manifest.json";
+  (void)open_lightmaps(lightmaps);
+  const nlohmann::json manifest = read_manifest(file);
+  const auto saved = file_inside(lightmaps, manifest.value("scene_with_uvs", ""));
+  if (!saved || !fs::is_regular_file(*saved))
+    fail(ExitCode::unsupported, "{} has no scene with the lightmaps' UVs; bake with --save-scene always",
+         lightmaps.string());
+  check_objects(manifest, file);
+  return *saved;
+}
+
+DeliverySummary deliver(BlenderSession& session, const fs::path& lightmaps, const DeliverOptions& options,
+                        const std::function<void(double, std::string)>& progress) {
+  const std::vector<std::string>& known = encodings_for(options.engine);
+  if (!options.codec.name.empty() && std::ranges::find(known, options.codec.name) == known.end())
+    fail(ExitCode::unsupported, "there is no decoder of '{}' for this engine; choose of {}",
+         options.codec.name, fmt::join(known, ", "));
+  const FolderLock lock = hold_folder(session.settings().output.dir, session.settings().run.lock_wait);
+  return EngineDelivery(session, lightmaps, options, progress).make();
+}
+
+}  // namespace rnmbake

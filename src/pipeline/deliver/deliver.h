@@ -1,0 +1,50 @@
+// pipeline/deliver/deliver.h - a bake's folder becomes what an engine opens.
+#pragma once
+
+#include "blender/blender_session.h"
+#include "encoding/codec.h"
+#include "pipeline/deliver/pages.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// gltf: a .glb with the flat light as MOZ_lightmap, and the pages beside it. threejs: the same, a module
+/// that decodes the pages, and a page to look at.
+enum class DeliveryEngine : std::uint8_t { gltf, threejs };
+
+struct DeliverOptions {
+  DeliveryEngine engine = DeliveryEngine::gltf;
+  CodecOptions codec;  // of the pages; "": the engine's own choice
+  PageLimits pages;
+  bool lights = false;  // the scene's lamps go into the .glb, too
+};
+
+/// Encodings that the engine's decoder knows, the one that is chosen where none is named first.
+[[nodiscard]] const std::vector<std::string>& encodings_for(DeliveryEngine engine);
+
+struct DeliverySummary {
+  std::vector<std::string> files;  // names in the folder, lightmaps.json last
+  std::size_t written = 0;         // of these; the others were the same already
+  PageLayout layout;
+  std::vector<std::string> notes;  // of what glTF cannot say, or the exporter left out
+};
+
+/// The saved scene of `lightmaps`, which deliver() opens. Throws Error(unsupported) where the folder holds
+/// parts of objects, or no scene with the maps' UVs, naming the remedy; else as open_lightmaps().
+[[nodiscard]] std::filesystem::path scene_to_deliver(const std::filesystem::path& lightmaps);
+
+/// Writes into the session's output folder, which is held for as long: all files, whole or not at all each,
+/// lightmaps.json last; files that an earlier delivery wrote and this one has no use for are removed. Files
+/// that hold the same bytes are left alone. The session's scene is scene_to_deliver(). Throws as
+/// scene_to_deliver(), lay_out_pages(), convert_lightmaps() and BlenderSession::run(), Error(unsupported)
+/// where the engine has no decoder for the encoding.
+[[nodiscard]] DeliverySummary deliver(BlenderSession& session, const std::filesystem::path& lightmaps,
+                                      const DeliverOptions& options,
+                                      const std::function<void(double, std::string)>& progress = {});
+
+}  // namespace rnmbake

@@ -1,0 +1,53 @@
+// pipeline/deliver/pages.h - the maps of many objects on a few pictures that they share.
+#pragma once
+
+#include "bake/atlas.h"
+#include "base/math.h"
+#include "image/layered_exr.h"
+#include "pipeline/lightmaps/lightmap_folder.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rnmbake {
+
+/// Where an object's map has come to lie. Texels are counted from the top left.
+struct PagedMap {
+  std::string key;
+  RectSize map;           // the object's own
+  int left = 0, top = 0;  // texel of it that is the box's first; below 0 where padding reaches past it
+  RectSize box;           // what covers it, with the padding around
+  std::size_t page = 0;
+  int x = 0, y = 0;  // of the box's first texel, on the page
+
+  /// From the object's own UVs to the page's: uv * scale + offset, with v downwards, as in glTF.
+  [[nodiscard]] Imath::V2d scale(RectSize page_size) const;
+  [[nodiscard]] Imath::V2d offset(RectSize page_size) const;
+};
+
+struct PageLimits {
+  int side = 4096;  // texels
+  int padding = 4;  // texels around each map that are filled from it
+};
+
+struct PageLayout {
+  std::vector<RectSize> pages;
+  std::vector<PagedMap> maps;  // in the folder's order
+  std::size_t covered = 0;     // texels, of all maps
+  PageLimits limits;
+
+  /// Over the covered texels; 1 would be perfect.
+  [[nodiscard]] double texels_for_each_covered() const;
+};
+
+/// Crops each map to its covered texels and places them. The same maps are laid out the same everywhere.
+/// Throws Error(unsupported) naming an object that is larger than a page, else as load_lightmap().
+[[nodiscard]] PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits);
+
+/// One page of a folder's maps: each layer of colours that all have, in their order, and "coverage". Texels
+/// around the covered ones are filled from these. Throws Error(invalid_input) where the maps' layers differ.
+[[nodiscard]] std::vector<Layer> compose_page(const LightmapFolder& folder, const PageLayout& layout,
+                                              std::size_t page);
+
+}  // namespace rnmbake

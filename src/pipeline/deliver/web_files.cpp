@@ -1,0 +1,51 @@
+#include "pipeline/deliver/web_files.h"
+
+#include "shaders/engines.h"
+
+#include <algorithm>
+#include <array>
+
+namespace rnmbake {
+
+/// The files of web/threejs/.
+const std::vector<std::pair<const char*, const char*>>& embedded_web_files();
+
+namespace {
+
+struct WebDecoder {
+  const char *encoding, *shader, *function;
+};
+
+constexpr std::array<WebDecoder, 9> decoders{{{"rnm-vrad", "rnm", "rnm_decode_squared"},
+                                              {"rnm", "rnm", "rnm_decode_squared"},
+                                              {"rnm-signed", "rnm", "rnm_decode_linear"},
+                                              {"rnm-bakery", "rnm", "rnm_decode_linear"},
+                                              {"zh3", "zh3", "zh3_decode"},
+                                              {"sh2", "sh2", "sh2_decode"},
+                                              {"geomerics", "geomerics", "geomerics_decode"},
+                                              {"h4", "hbasis", "h4_decode"},
+                                              {"h6", "hbasis", "h6_decode"}}};
+
+}  // namespace
+
+const std::vector<std::string>& web_encodings() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const WebDecoder& decoder : decoders) all.emplace_back(decoder.encoding);
+    return all;
+  }();
+  return names;
+}
+
+nlohmann::json web_decoder(const std::string& encoding, const std::vector<std::string>& layers) {
+  const auto* const found = std::ranges::find(decoders, encoding, &WebDecoder::encoding);
+  return {{"layers", layers},
+          {"function", found->function},
+          {"text", shader_text(engine_named("glsl"), {found->shader})}};
+}
+
+const std::vector<std::pair<const char*, const char*>>& web_files() {
+  return embedded_web_files();
+}
+
+}  // namespace rnmbake

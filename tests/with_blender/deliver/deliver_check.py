@@ -1,0 +1,245 @@
+"""Scenes through `rnmbake deliver`: the .glb by the Khronos validator and by Blender, its light by three.js in headless
+Chromium against `rnmbake render`.
+
+    RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/deliver/deliver_check.py
+
+RNMBAKE_NODE_MODULES names a node_modules folder that holds three and gltf-validator; without it npm fetches them. What needs
+them is left out, with a word, where there is no Chromium, npm or network.
+"""
+import functools
+import http.server
+import json
+import os
+from pathlib import Path
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
+import browser  # noqa: E402
+from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender  # noqa: E402
+
+PACKAGES = ("three@0.187.0", "gltf-validator@2.0.0-dev.3.10")
+PANELS = ROOT / "scenes" / "built" / "panels.blend"
+QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
+WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
+BLOCK = 5  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
+# UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
+KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def node_modules(folder):
+    """A node_modules folder with the packages, or SkipTest."""
+    named = os.environ.get("RNMBAKE_NODE_MODULES")
+    if named:
+        return Path(named)
+    if not shutil.which("npm"):
+        raise unittest.SkipTest("SKIPPED: no npm to fetch three and gltf-validator with; install the package npm")
+    outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1",
+                              "--fetch-timeout=10000", "--fetch-retry-maxtimeout=1000", *PACKAGES],
+                             cwd=folder, timeout=120, capture_output=True, text=True)
+    if outcome.returncode:
+        raise unittest.SkipTest(f"SKIPPED: npm cannot fetch {PACKAGES}: {outcome.stderr.strip().splitlines()[-1:]}")
+    return folder / "node_modules"
+
+
+def json_of(glb):
+    data = glb.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    return json.loads(data[20:20 + length])
+
+
+class Delivered(unittest.TestCase):
+    """All tests look at one delivery."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.top, cls.scene = delivered_once()
+        cls.out = cls.top / "site"
+        cls.maps = cls.out / ".lightmaps"
+        cls.record = json.loads((cls.out / "lightmaps.json").read_text())
+
+
+@functools.cache
+def delivered_once():
+    folder = tempfile.TemporaryDirectory(prefix="rnmbake-deliver-")
+    unittest.addModuleCleanup(folder.cleanup)
+    top = Path(folder.name)
+    scene = top / "panels.blend"
+    run_blender(HERE / "matt_scene.py", scene, scene=PANELS)
+    done = deliver("threejs", scene, top / "site")
+    assert done.returncode == OK, done.stderr
+    return top, scene
+
+
+def deliver(engine, source, out, *flags):
+    return rnmbake("deliver", source, "--engine", engine, "-o", out, *QUICK, *flags)
+
+
+class Glb(Delivered):
+    def test_validator_has_nothing_to_say(self):
+        modules = node_modules(self.top)
+        script = ("const v=require('gltf-validator'),fs=require('fs');v.validateBytes(new Uint8Array(fs.readFileSync("
+                  "process.argv[1])),{maxIssues:0}).then(r=>console.log(JSON.stringify(r.issues)))")
+        done = subprocess.run(["node", "-e", script, str(self.out / "scene.glb")], capture_output=True, text=True, check=True,
+                              env={**os.environ, "NODE_PATH": str(modules)})
+        issues = json.loads(done.stdout)
+        self.assertEqual(issues["numErrors"], 0, issues)
+        self.assertEqual({one["code"] for one in issues["messages"]} - KNOWN_NOTICES, set(), issues)
+
+    def test_each_object_has_its_record(self):
+        gltf = json_of(self.out / "scene.glb")
+        manifest = json.loads((self.maps / "manifest.json").read_text())
+        keys = {one["key"] for one in manifest["objects"]}
+        self.assertEqual({one["key"] for one in self.record["objects"]}, keys)
+        for placed in self.record["objects"]:
+            node = gltf["nodes"][placed["node"]]
+            self.assertEqual(node["name"], placed["name"])
+            self.assertEqual(node["extras"]["rnmbake"]["key"], placed["key"])
+            for primitive in gltf["meshes"][node["mesh"]]["primitives"]:
+                self.assertIn("TEXCOORD_1", primitive["attributes"])
+                lightmap = gltf["materials"][primitive["material"]]["extensions"]["MOZ_lightmap"]
+                self.assertEqual(lightmap["texCoord"], 1)
+        self.assertEqual(gltf["extras"]["rnmbake"]["pages"], self.record["pages"])
+
+    def test_uvs_lead_to_the_texels_that_were_baked(self):
+        """Blender imports the .glb; each object's second UV set lies in its box of the page."""
+        listing = self.top / "uvs.json"
+        run_blender(HERE / "read_glb.py", self.out / "scene.glb", listing)
+        found = json.loads(listing.read_text())
+        maps = {one["key"]: one for one in json.loads((self.maps / "manifest.json").read_text())["objects"]}
+        for placed in self.record["objects"]:
+            uv = found[placed["name"]]
+            for axis, size in ((0, "width"), (1, "height")):
+                low, high = placed["offset"][axis], placed["offset"][axis] + placed["scale"][axis]
+                self.assertGreaterEqual(uv["low"][axis], low - 1e-5, placed["key"])
+                self.assertLessEqual(uv["high"][axis], high + 1e-5, placed["key"])
+                texels = placed["scale"][axis] * self.record["pages"][placed["page"]][size]
+                self.assertAlmostEqual(texels, maps[placed["key"]][size], delta=1e-6)
+
+
+class Again(Delivered):
+    def test_only_what_changed_is_written(self):
+        times = {path.name: path.stat().st_mtime_ns for path in self.out.iterdir() if path.is_file()}
+        done = deliver("threejs", self.scene, self.out)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertEqual({path.name: path.stat().st_mtime_ns for path in self.out.iterdir() if path.is_file()}, times)
+
+    def test_another_encoding_takes_the_place_of_the_first(self):
+        out = self.top / "other"
+        self.assertEqual(deliver("threejs", self.maps, out).returncode, OK)
+        done = deliver("threejs", self.maps, out, "--encoding", "zh3")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        names = {path.name for path in out.iterdir()}
+        self.assertIn("page0.l1x.exr", names)
+        self.assertNotIn("page0.rnm0.exr", names)
+        self.assertEqual(set(json.loads((out / "lightmaps.json").read_text())["files"]), names)
+
+
+class Refusals(Delivered):
+    def refused(self, done, code, *words):
+        self.assertEqual(done.returncode, code, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def test_a_page_that_is_too_small(self):
+        out = self.top / "small"
+        self.refused(deliver("threejs", self.maps, out, "--pages", "32"), UNSUPPORTED, "--pages")
+        self.assertFalse((out / "lightmaps.json").exists())
+
+    def test_an_encoding_without_decoder(self):
+        self.refused(deliver("threejs", self.maps, self.top / "none", "--encoding", "flat"), UNSUPPORTED, "flat")
+
+    def test_a_bake_without_a_saved_scene(self):
+        bare = self.top / "bare"
+        done = rnmbake("bake", self.scene, "-o", bare, *QUICK[2:], "--engine", "embree", "--objects", "floor", "--save-scene",
+                       "never")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.refused(deliver("gltf", bare, self.top / "of bare"), UNSUPPORTED, "--save-scene always")
+
+    def test_no_output(self):
+        self.refused(rnmbake("deliver", self.scene, "--engine", "gltf"), USAGE, "-o DIR")
+
+
+class ThreeJs(Delivered):
+    @classmethod
+    def setUpClass(cls):
+        browser.require()
+        super().setUpClass()
+        (cls.out / "node_modules").symlink_to(node_modules(cls.top))
+        shutil.copy(HERE / "view.html", cls.out)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(cls.out)))
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        cls.addClassCleanup(server.server_close)
+        cls.addClassCleanup(server.shutdown)
+        cls.address = f"http://127.0.0.1:{server.server_port}/"
+        cls.browser = browser.Browser(480, 270)
+        cls.addClassCleanup(cls.browser.close)
+
+    def open(self, page):
+        self.browser.problems.clear()
+        self.browser.call("Page.navigate", url=self.address + page)
+        self.browser.wait("document.documentElement?.dataset.ready === 'yes'")
+
+    def problems(self):
+        return [one for one in self.browser.problems
+                if not one.startswith(("request: " + self.address, "request: blob:")) and "GPU stall" not in one
+                and "software WebGL" not in one]
+
+    def rendered(self, decode):
+        """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
+        picture = self.top / f"{decode}.exr"
+        done = rnmbake("render", self.scene, "--lightmaps", self.maps, "--decode", decode, "-o", picture, "--resolution",
+                       f"{WIDTH}x{HEIGHT}", "-q")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(picture)], capture_output=True, text=True,
+                              check=True).stdout
+        rows = [list(map(float, line.split("):")[1].split())) for line in said.splitlines() if "Pixel (" in line]
+        self.assertEqual(len(rows), WIDTH * HEIGHT)
+        return [row[:3] for row in rows], [row[3] == 1 for row in rows]
+
+    def assert_same_view(self, decode, flat):
+        """Over blocks of pixels that see nothing but surfaces, the mean of both is the same within 2 %."""
+        self.open("view.html")
+        seen = self.browser.run(f"seen({WIDTH}, {HEIGHT}, {str(flat).lower()})")
+        expected, covered = self.rendered(decode)
+        compared, off = 0, []
+        for top in range(0, HEIGHT, BLOCK):
+            for left in range(0, WIDTH, BLOCK):
+                pixels = [(left + x, top + y) for y in range(BLOCK) for x in range(BLOCK)]
+                if not all(covered[y * WIDTH + x] for x, y in pixels):
+                    continue
+                mean = sum(sum(expected[y * WIDTH + x]) for x, y in pixels)
+                other = sum(sum(seen[3 * ((HEIGHT - 1 - y) * WIDTH + x):][:3]) for x, y in pixels)
+                compared += 1
+                if abs(other - mean) > .02 * mean:
+                    off.append((left, top, other / mean))
+        self.assertGreater(compared, 800)
+        self.assertLessEqual(len(off), .05 * compared, off[:20])
+
+    def test_directional_light_is_that_of_render(self):
+        self.assert_same_view("vrad", False)
+        self.assertEqual(self.problems(), [])
+
+    def test_flat_light_is_that_of_render(self):
+        self.assert_same_view("single", True)
+
+    def test_the_page_shows_the_scene(self):
+        self.open("index.html")
+        self.assertEqual(self.browser.run("document.getElementById('said').textContent"), "")
+        self.assertEqual(self.problems(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
