@@ -68,38 +68,22 @@ struct Source {
 
 Source bake_first(ResolvedConfig config, const DeliverFlags& flags, RunReport& made) {
   fs::path& output = config.globals.output.dir;
-  if (output.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
   output = flags.lightmaps.empty() ? output / own_maps : flags.lightmaps;
   const fs::path lightmaps = output;
   return {lightmaps, bake_scene(std::move(config), made)};
-}
-
-/// What a delivery asks of the bake, beside the user's own flags.
-std::vector<SettingOverride> settings_of_bake(const DeliverFlags& flags) {
-  std::vector<SettingOverride> more{
-      {find_setting("save_scene"), std::string("always"), SettingSource::flag, "rnmbake deliver"}};
-  if (!flags.bake_engine.empty())
-    more.push_back({find_setting("engine"), flags.bake_engine, SettingSource::flag, "flag --bake-engine"});
-  return more;
 }
 
 int run_deliver(const SettingsFlags& settings, const DeliverFlags& flags, RunReport& made) {
   DeliverOptions options = flags.options;
   options.engine = engine_of(flags.engine);
   const fs::path given = settings.scene_argument();
-  Source source;
-  if (fs::is_directory(given)) {
-    source.lightmaps = given;
-  } else {
-    auto config = settings.resolve_with("", settings_of_bake(flags));
-    if (!config) return static_cast<int>(ExitCode::ok);
-    StopRequest::install();
-    source = bake_first(std::move(*config), flags, made);
-  }
-  const auto config = settings.resolve_with(scene_to_deliver(source.lightmaps).string(), {});
+  const bool is_baked = fs::is_directory(given);
+  auto config = is_baked ? settings.resolve_scene(scene_to_deliver(given)) : settings.resolve();
   if (!config) return static_cast<int>(ExitCode::ok);
-  StopRequest::install();
   if (config->globals.output.dir.empty()) fail(ExitCode::usage, "nowhere to write to: pass -o DIR");
+  StopRequest::install();
+  const Source source = is_baked ? Source{given, 0} : bake_first(*config, flags, made);
+  config->globals.scene.file = scene_to_deliver(source.lightmaps);
   LateBlender blender(config->globals);
   BlenderSession session(*config, blender);
   Progress progress("delivering", progress_for(log::is_quiet(), log::is_jsonl()));
@@ -153,6 +137,10 @@ std::function<int()> add_deliver_command(CLI::App& app) {
       ->group("Delivery");
   auto run = std::make_shared<RunFlags>(*command);
   return [settings, flags, run] {
+    settings->want(
+        {find_setting("save_scene"), std::string("always"), SettingSource::flag, "rnmbake deliver"});
+    if (!flags->bake_engine.empty())
+      settings->want({find_setting("engine"), flags->bake_engine, SettingSource::flag, "flag --bake-engine"});
     return run->run([&](RunReport& made) { return run_deliver(*settings, *flags, made); });
   };
 }

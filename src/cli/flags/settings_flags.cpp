@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <set>
 #include <string>
 
@@ -132,23 +131,10 @@ std::vector<SettingOverride> SettingsFlags::given_flags() const {
     SettingOverride one{setting, std::move(value), SettingSource::flag, std::move(where)};
     flags.push_back(std::move(one));
   }
+  flags.insert(flags.end(), wanted_.begin(), wanted_.end());
   return flags;
 }
 
-<<<<<<< HEAD
-=======
-std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
-  return resolve(scene_argument(), given_flags(), out);
-}
-
-std::optional<ResolvedConfig> SettingsFlags::resolve_with(const std::string& scene,
-                                                          std::vector<SettingOverride> more) const {
-  std::vector<SettingOverride> flags = given_flags();
-  std::ranges::move(more, std::back_inserter(flags));
-  return resolve(scene.empty() ? scene_argument() : scene, std::move(flags), std::cout);
-}
-
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
 void SettingsFlags::take_several_scenes(CLI::App& command) {
   const std::string help = scene_->get_description();
   command.remove_option(scene_);  // one that takes a single word cannot be told to take more
@@ -179,7 +165,6 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
   const std::vector<std::string> arguments =
       scene_->count() > 0 ? scene_->results() : std::vector<std::string>{""};
   std::vector<ResolvedConfig> all;
-<<<<<<< HEAD
   std::set<fs::path> folders;
   for (const std::string& argument : arguments) {
     for (const ProjectFile& project : projects_of(argument)) {
@@ -189,15 +174,6 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
       if (!dir.empty() && arguments.size() > 1) dir /= fs::path(argument).stem();
       if (!dir.empty() && is_in_shared_folder(project, *config)) dir /= config->globals.scene.file.stem();
       if (!dir.empty() && !folders.insert(fs::absolute(dir).lexically_normal()).second)
-=======
-  std::set<std::string> names;
-  for (const std::string& scene : scenes) {
-    auto config = resolve(scene, given_flags(), std::cout);
-    if (!config) return {};
-    const std::string name = std::filesystem::path(scene).stem().string();
-    if (scenes.size() > 1) {
-      if (!names.insert(name).second)
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
         fail(ExitCode::usage,
              "two of the scenes would write into {}, {} and another; bake one after the other, each with an "
              "--output of its own, or give one of a project's [[scenes]] a dir of its own",
@@ -209,7 +185,6 @@ std::vector<ResolvedConfig> SettingsFlags::resolve_all() const {
   return all;
 }
 
-<<<<<<< HEAD
 std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
   const std::string argument = scene_argument();
   const std::vector<ProjectFile> projects = projects_of(argument);
@@ -224,16 +199,11 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(std::ostream& out) const {
 }
 
 std::optional<ResolvedConfig> SettingsFlags::resolve(const ProjectFile& project, const std::string& argument,
-=======
-std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene,
-                                                     std::vector<SettingOverride> flags,
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
                                                      std::ostream& out) const {
   if (print_reference_->count() > 0) {
     out << settings_reference();
     return std::nullopt;
   }
-<<<<<<< HEAD
   const Setting* file = find_setting("file");
   std::vector<SettingOverride> flags = given_flags();
   std::vector<SettingOverride> environment = read_environment(process_environment());
@@ -247,21 +217,6 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene,
       fail(ExitCode::usage, "{} and --file both name a scene; give one of them", argument);
     SettingOverride one{file, argument, SettingSource::flag, "argument SCENE"};
     flags.push_back(std::move(one));
-=======
-  ProjectFile project;
-  if (!scene.empty()) {
-    if (is_project_path(scene)) {
-      project = read_project(scene);
-    } else {
-      const Setting* file = find_setting("file");
-      for (const SettingOverride& flag : flags) {
-        if (flag.setting == file)
-          fail(ExitCode::usage, "{} and --file both name a scene; give one of them", scene);
-      }
-      SettingOverride one{file, scene, SettingSource::flag, "argument SCENE"};
-      flags.push_back(std::move(one));
-    }
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
   }
   ResolvedConfig config = rnmbake::resolve(project, environment, flags);
   if (print_config_->count() > 0) {
@@ -269,6 +224,12 @@ std::optional<ResolvedConfig> SettingsFlags::resolve(const std::string& scene,
     out << print_config(config, purpose_);
     return std::nullopt;
   }
+  return config;
+}
+
+std::optional<ResolvedConfig> SettingsFlags::resolve_scene(const fs::path& scene) const {
+  auto config = resolve({}, scene.string(), std::cout);
+  if (config) require_scene(*config, purpose_);
   return config;
 }
 

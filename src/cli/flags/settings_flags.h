@@ -34,18 +34,15 @@ class SettingsFlags {
   [[nodiscard]] std::optional<ResolvedConfig> resolve(std::ostream& out) const;
   [[nodiscard]] std::optional<ResolvedConfig> resolve() const;  // on stdout
 
-<<<<<<< HEAD
+  /// The same with a scene file in the place of the argument.
+  [[nodiscard]] std::optional<ResolvedConfig> resolve_scene(const std::filesystem::path& scene) const;
+
+  /// What the command itself wants of the settings; wins over the flags.
+  void want(SettingOverride setting) { wanted_.push_back(std::move(setting)); }
+
   /// The same of a command that takes several scenes or projects, each with the flags, and projects that list
   /// several; of several, each writes into a folder of its own below the output folder, with the name of its
   /// file, unless the project says which. That each of several exists, nobody has looked. Empty: as nullopt
-=======
-  /// The same with `scene` in the place of the argument ("": as it was typed), and `more` after the flags.
-  [[nodiscard]] std::optional<ResolvedConfig> resolve_with(const std::string& scene,
-                                                           std::vector<SettingOverride> more) const;
-
-  /// The same of a command that takes several scenes or projects, each with the flags; of several, each
-  /// writes into a folder of its own below the output folder, with the name of its file. Empty: as nullopt
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
   /// above.
   [[nodiscard]] std::vector<ResolvedConfig> resolve_all() const;
   void take_several_scenes(CLI::App& command);
@@ -56,17 +53,13 @@ class SettingsFlags {
  private:
   void add(CLI::App& command, const Setting& setting, const std::string& group);
   [[nodiscard]] std::vector<SettingOverride> given_flags() const;
-<<<<<<< HEAD
   [[nodiscard]] std::vector<ProjectFile> projects_of(const std::string& argument) const;
   [[nodiscard]] std::optional<ResolvedConfig> resolve(const ProjectFile& project, const std::string& argument,
-=======
-  [[nodiscard]] std::optional<ResolvedConfig> resolve(const std::string& scene,
-                                                      std::vector<SettingOverride> flags,
->>>>>>> 5c1ffdc (Deliver: from a scene to a .glb with lightmaps on pages and to three.js, in one command; its light is that of render)
                                                       std::ostream& out) const;
 
   Purpose purpose_;
   std::vector<std::pair<const Setting*, CLI::Option*>> options_;
+  std::vector<SettingOverride> wanted_;
   std::vector<std::string> scenes_;
   CLI::Option* scene_ = nullptr;
   CLI::Option* print_config_ = nullptr;
