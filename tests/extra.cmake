@@ -74,7 +74,7 @@ rnm_check(attic.check blender 1200 with_blender/attic)
 
 rnm_check(manifest.schema blender 1200 with_blender/manifest)
 
-foreach(CLASS Changes Killed Local Scenes Traced)
+foreach(CLASS Changes Killed Local Reference Scenes Traced Validated)
   rnm_check(reuse.${CLASS} blender 1200 with_blender/reuse ARGS ${CLASS})
 endforeach()
 

@@ -11,12 +11,12 @@
 #include "cli/bases/basis_file.h"
 #include "cli/flags/settings_flags.h"
 #include "cli/reference.h"
+#include "cli/rerun.h"
 #include "cli/run_report.h"
 #include "jobs/run_index.h"
 #include "pipeline/bake/bake_run.h"
 #include "pipeline/farm/shared_folders.h"
 #include "pipeline/farm/task_result.h"
-#include "pipeline/lightmaps/last_run.h"
 #include "pipeline/lightmaps/left_files.h"
 #include "pipeline/local/local_targets.h"
 #include "pipeline/reference/reference_plan.h"
@@ -63,18 +63,6 @@ struct BakeFlags {
   std::filesystem::path merge;         // plan of rnmbake submit; "": bake
 };
 
-/// Says what made the run necessary; with --why all of it.
-void say_why(const Reasons& reasons, bool all) {
-  if (reasons.empty()) return;
-  if (!all) {
-    const std::string more =
-        reasons.size() > 1 ? fmt::format(" (and {} more; --why lists them)", reasons.size() - 1) : "";
-    log::info("because {}{}", reasons.front(), more);
-    return;
-  }
-  for (const Reasons::value_type& reason : reasons) log::info("because {}", reason);
-}
-
 int show_plan(const std::vector<BakePreview>& targets) {
   for (const BakePreview& one : targets)
     std::cout << printable(one.key)
@@ -97,6 +85,7 @@ int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const L
                    RunReport& made) {
   const LocalRule rule(flags.assume_local, last, config.globals.output.dir);
   BetweenTraceSteps between;
+  between.anew = flags.force;
   between.surveyed = [&](const SceneSurvey& survey) {
     say_why(last.scene_changes(survey.digest), flags.why);
   };
@@ -104,7 +93,7 @@ int bake_by_embree(const ResolvedConfig& config, const BakeFlags& flags, const L
     return rule.choose(survey, all, find);
   };
   between.delivered = [&](const SceneSurvey& survey, const LocalTargets& local) {
-    last.keep(survey, local.assumed);
+    last.keep(survey.inputs, place_scene(survey), lightmap_files(config.globals.output.dir), local.assumed);
     say_assumed(local);
   };
   if (flags.dry_run) {
@@ -148,9 +137,7 @@ int bake_or_merge(ResolvedConfig config, const BakeFlags& flags, const std::opti
   const LastRun last(config, "bake",
                      {!traced || !is_rnmscene(config.globals.scene.file), !flags.assume_local});
   if (last.reasons().empty() && !flags.force && !plan) {
-    log::info("nothing to do: {} is up to date", output.dir.string());
-    made = made_from(config);
-    add_scene_inputs(last.inputs(), made);
+    report_last_run(config, last, made);
     add_lightmaps(made);
     return static_cast<int>(ExitCode::ok);
   }
@@ -183,7 +170,8 @@ int bake_or_merge(ResolvedConfig config, const BakeFlags& flags, const std::opti
     keep_all(output.dir, scene.survey, local.earlier);
   else
     code = report(run_bake(session, subject), output);
-  if (code == static_cast<int>(ExitCode::ok)) last.keep(scene.survey, local.assumed);
+  if (code == static_cast<int>(ExitCode::ok))
+    last.keep(scene.survey.inputs, place_scene(scene.survey), lightmap_files(output.dir), local.assumed);
   say_assumed(local);
   made = made_from(config);
   add_scene_inputs(scene.survey.inputs, made);

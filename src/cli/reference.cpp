@@ -7,7 +7,9 @@
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/flags/settings_flags.h"
+#include "cli/rerun.h"
 #include "cli/run_report.h"
+#include "jobs/run_index.h"
 #include "pipeline/reference/reference_run.h"
 #include "pipeline/run/result_store.h"
 #include "pipeline/scene/export_scene.h"
@@ -79,7 +81,7 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
   BlenderSession session(config, blender);
   std::optional<FolderLock> lock;
   if (!between.preview) lock.emplace(prepare_output(settings.output, settings.run));
-  const ExportResult exported = export_scene(session);
+  const ExportResult exported = export_scene(session, between.anew);
   const SceneSurvey& survey = exported.diffuse_scene.survey;
   if (between.surveyed) between.surveyed(survey);
   check_light(config, survey);
@@ -107,7 +109,8 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
     log::info("{} {} x {} against Blender {}", kind.verb, counted(chosen.list.targets.size(), "lightmap"),
               counted(bases.size(), "direction"), plan.blender_version);
     Store store = open_store(settings);
-    const ReferenceSubject subject{scene, chosen.list, bases, chosen.earlier, {&store, exported.content}};
+    const ReferenceSubject subject{
+        scene, chosen.list, bases, chosen.earlier, {&store, exported.content, between.anew}};
     code = report(run_reference(subject, settings, plan, kind.verb, saved), settings.output);
   }
   if (between.delivered && code == static_cast<int>(ExitCode::ok)) between.delivered(survey, chosen);
@@ -119,8 +122,25 @@ int trace(const ResolvedConfig& config, const TracedKind& kind, const BetweenTra
 
 }  // namespace
 
-int trace_reference(const ResolvedConfig& config, RunReport& made) {
-  return trace(config, {"reference", plan_reference, "tracing"}, {}, made);
+int trace_reference(const ResolvedConfig& config, const RerunFlags& flags, RunReport& made) {
+  const BakeSettings& settings = config.globals;
+  if (settings.output.dir.empty()) (void)prepare_output(settings.output, settings.run);  // throws
+  const LastRun last(config, "reference", {!is_rnmscene(settings.scene.file)});
+  if (last.reasons().empty() && !flags.force) {
+    report_last_run(config, last, made);
+    add_lightmaps(made);
+    return static_cast<int>(ExitCode::ok);
+  }
+  say_why(last.reasons(), flags.why);
+  BetweenTraceSteps between;
+  between.anew = flags.force;
+  between.surveyed = [&](const SceneSurvey& survey) {
+    say_why(last.scene_changes(survey.digest), flags.why);
+  };
+  between.delivered = [&](const SceneSurvey& survey, const LocalTargets&) {
+    last.keep(survey.inputs, place_scene(survey), lightmap_files(settings.output.dir));
+  };
+  return trace(config, {"reference", plan_reference, "tracing"}, between, made);
 }
 
 int trace_bake(const ResolvedConfig& config, const BetweenTraceSteps& between, RunReport& made) {
@@ -131,13 +151,18 @@ std::function<int()> add_reference_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "reference", "Trace what the lightmaps of a scene should hold, with standard errors");
   auto flags = std::make_shared<SettingsFlags>(*command, Purpose::reference);
+  auto rerun = std::make_shared<RerunFlags>();
+  add_rerun_flags(*command, *rerun);
   auto run = std::make_shared<RunFlags>(*command);
-  return [flags, run] {
+  return [flags, rerun, run] {
     return run->run([&](RunReport& made) {
       const auto config = flags->resolve();
       if (!config) return static_cast<int>(ExitCode::ok);
       StopRequest::install();
-      return trace_reference(*config, made);
+      const int code = trace_reference(*config, *rerun, made);
+      if (code == static_cast<int>(ExitCode::ok))
+        remember_run({LastRun::record_in(config->globals.output.dir)});
+      return code;
     });
   };
 }

@@ -56,7 +56,7 @@ std::filesystem::path traced(const StudyFlags& flags) {
   require_scene(config, Purpose::reference);
   StopRequest::install();
   RunReport made;
-  if (trace_reference(config, made) != 0)
+  if (trace_reference(config, {}, made) != 0)
     fail(ExitCode::tasks_failed, "{} was not traced as a whole; see above", flags.what);
   return truth;
 }

@@ -2,12 +2,14 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
 #include "cli/bases/basis_file.h"
 #include "cli/flags/command_line.h"
 #include "cli/flags/settings_flags.h"
+#include "cli/rerun.h"
 #include "cli/run_report.h"
 #include "config/recipe_names.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
@@ -58,9 +60,11 @@ struct ValidateFlags {
             "limits for each object and basis of the receiver's bake, such as rmse=2%,bias=0.5%: exit "
             "code 7 where one is exceeded. Of rmse, bias, p95, p99, max; % is of the reference's mean")
         ->type_name("LIMITS");
+    add_rerun_flags(command, rerun);
   }
   SettingsFlags settings;
   RunFlags run;
+  RerunFlags rerun;
   std::string study, fail_above;
   std::vector<std::string> decompose = ValidateOptions{}.decompose;
   int view = ValidateOptions{}.view, probes = ValidateOptions{}.probes;
@@ -95,39 +99,82 @@ ThresholdOutcome write_reports(Validation& found, const ResolvedConfig& config, 
   return found.receiver.thresholds;
 }
 
-/// Names of the pages, the finding, and limits that were exceeded.
-RunReport report_of(const ResolvedConfig& config, const Validation& found, const ThresholdOutcome& limits) {
-  RunReport made = made_from(config);
-  add_scene_inputs(found.inputs, made);
+/// Says the finding; adds it, the names of the pages, and limits that were exceeded.
+void conclude(const std::string& finding, bool complete, const std::vector<std::string>& exceeded,
+              const ValidateFlags& flags, RunReport& made) {
   made.main_file = made.output / "report.json";
   made.files = {"report.html", "report.csv", "report.json"};
-  if (found.recipe) {
+  if (flags.decompose != std::vector<std::string>{"none"}) {
     for (const char* name : {"report.html", "report.csv", "report.json"})
       made.files.push_back(std::string(flat_normal_map_name) + "/" + name);
   }
-  made.more["finding"] = found.receiver.finding;
-  made.more["complete"] = found.complete;
-  made.more["exceeded"] = describe(limits);
-  return made;
+  made.more["finding"] = finding;
+  made.more["complete"] = complete;
+  made.more["exceeded"] = exceeded;
+  if (!flags.run.json()) std::cout << printable(finding) << '\n';
+}
+
+/// What decides the result beside settings, a line each.
+std::string own_settings(const ValidateFlags& flags) {
+  return fmt::format("validate\nstudy = {}\ndecompose = {}\nview = {}\nprobes = {}\nfail-above = {}",
+                     flags.study, fmt::join(flags.decompose, ","), flags.view, flags.probes,
+                     flags.fail_above);
+}
+
+/// Reports, and what all steps wrote: nothing else that the folder may hold.
+std::vector<RunFile> files_in(const std::filesystem::path& output) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(output);
+  std::vector<RunFile> files;
+  const auto add = [&](const fs::path& file) {
+    const bool is_hidden = file.filename().string().starts_with('.');  // lock and records
+    if (fs::is_regular_file(file) && !is_hidden) files.push_back(look_at("output", file));
+  };
+  for (const char* report : {"report.html", "report.csv", "report.json"}) add(folder / report);
+  for (const char* step : {"receiver", "receiver-own-materials", "flat-normal-map",
+                           "flat-normal-map-own-materials", "reference", "emulation", "study", "probes"}) {
+    if (!fs::is_directory(folder / step)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / step)) add(entry.path());
+  }
+  return files;
+}
+
+/// All that the last run said, once more.
+void repeat(const ResolvedConfig& config, const ValidateFlags& flags, const LastRun& last, RunReport& made) {
+  report_last_run(config, last, made);
+  const std::filesystem::path report = config.globals.output.dir / "report.json";
+  const nlohmann::json text = parse_json(read_text(report), report.string());
+  conclude(text.at("finding").get<std::string>(), true, {}, flags, made);
 }
 
 int validate(const ResolvedConfig& config, const ValidateFlags& flags, RunReport& made) {
   std::vector<Threshold> thresholds;
   if (!flags.fail_above.empty()) thresholds = parse_thresholds(flags.fail_above);
   const std::vector<BasisDirection> bases = choose_bases(config.globals.bake);
+  const OutputSettings& output = config.globals.output;
+  if (output.dir.empty()) (void)prepare_output(output, config.globals.run);  // throws
+  const LastRun last(config, own_settings(flags), {});
+  if (last.reasons().empty() && !flags.rerun.force) {
+    repeat(config, flags, last, made);
+    return static_cast<int>(ExitCode::ok);
+  }
+  say_why(last.reasons(), flags.rerun.why);
   LateBlender blender(config.globals);
   (void)blender.info();  // throws where Blender is missing, before any file is written
   BlenderSession session(config, blender);
-  const FolderLock lock = prepare_output(config.globals.output, config.globals.run);
-  Validation found =
-      validate(session, bases, {flags.decompose, flags.study == "split", flags.view, flags.probes});
+  const FolderLock lock = prepare_output(output, config.globals.run);
+  Validation found = validate(
+      session, bases, {flags.decompose, flags.study == "split", flags.view, flags.probes, flags.rerun.force});
   const ThresholdOutcome limits = write_reports(found, config, flags, std::move(thresholds));
-  made = report_of(config, found, limits);
-  if (!flags.run.json()) std::cout << printable(found.receiver.finding) << '\n';
-  log::info("report: {}", (config.globals.output.dir / "report.html").string());
+  made = made_from(config);
+  add_scene_inputs(found.inputs, made);
+  conclude(found.receiver.finding, found.complete, describe(limits), flags, made);
+  log::info("report: {}", (output.dir / "report.html").string());
   for (const std::string& line : describe(limits)) log::error("{}", line);
   if (!limits.exceeded.empty()) return static_cast<int>(ExitCode::threshold_exceeded);
-  return static_cast<int>(found.complete ? ExitCode::ok : ExitCode::tasks_failed);
+  if (!found.complete) return static_cast<int>(ExitCode::tasks_failed);
+  last.keep(found.inputs, {found.digest, {}, {}}, files_in(output.dir));
+  return static_cast<int>(ExitCode::ok);
 }
 
 }  // namespace

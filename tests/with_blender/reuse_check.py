@@ -27,6 +27,8 @@ MANY = ("--resolution", "64", "--samples", "512", "--bounces", "0", "--save-scen
 
 
 class Reuse(unittest.TestCase):
+    COMMAND = "bake"
+
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="rnmbake-reuse-")
@@ -47,7 +49,7 @@ class Reuse(unittest.TestCase):
         self.wrapper.chmod(0o755)
 
     def command(self, *flags, out="out", cache="cache"):
-        return [binary(), "bake", str(self.scene), "-o", str(self.folder / out), "--blender", str(self.wrapper),
+        return [binary(), self.COMMAND, str(self.scene), "-o", str(self.folder / out), "--blender", str(self.wrapper),
                 "--cache", str(self.folder / cache) if cache != "none" else cache, *flags]
 
     def bake(self, *flags, **where):
@@ -65,8 +67,28 @@ class Reuse(unittest.TestCase):
         run_blender(SCENES / "reuse_scene.py", self.scene, what, scene=self.scene)
 
     def pictures(self, out="out"):
-        return {file.name: hashlib.sha256(file.read_bytes()).hexdigest()
-                for file in sorted((self.folder / out).glob("*.exr"))}
+        return {str(file.relative_to(self.folder / out)): hashlib.sha256(file.read_bytes()).hexdigest()
+                for file in sorted((self.folder / out).rglob("*.exr"))}
+
+    def kept(self, kind):
+        return {file.name for file in (self.folder / "cache" / kind).glob("*/*")}
+
+    def set_box(self, settings):
+        """The scene from now on; `settings` are those of the box."""
+        project = self.scene.with_name("room.toml")
+        project.write_text('[scene]\nfile = "room.blend"\n[bake]\nresolution = 16\n'
+                           f'[[override]]\nobjects = "box"\n{settings}\n', encoding="utf-8")
+        self.scene = project
+
+    def kill_when(self, is_time, *flags):
+        self.launches.write_text("", encoding="utf-8")
+        process = subprocess.Popen(self.command(*flags), env=self.environment(), stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not is_time():
+            self.assertIsNone(process.poll(), "it was over before it could be killed")
+            time.sleep(0.05)
+        process.send_signal(signal.SIGKILL)
+        process.wait(LIMIT_SECONDS)
 
     def samples(self, out="out"):
         manifest = json.loads((self.folder / out / "manifest.json").read_text(encoding="utf-8"))
@@ -109,16 +131,14 @@ class Changes(Reuse):
         self.assertNotIn("bake_entry.py", self.bake(*FEW, "--depth", "float", "--dilate", "1", "--layout", "files")[0])
 
     def test_one_object_alone(self):
-        project = self.folder / "scene" / "room.toml"
-        project.write_text('[scene]\nfile = "room.blend"\n[[override]]\nobjects = "box"\nsamples = 16\n',
-                           encoding="utf-8")
-        settings = ("--resolution", "16", "--bounces", "2", "--save-scene", "never")
-        scene, self.scene = self.scene, project
+        settings = ("--bounces", "2", "--save-scene", "never")
+        scene = self.scene
+        self.set_box("samples = 16")
         self.bake(*settings)
         before = self.pictures()
-        project.write_text(project.read_text(encoding="utf-8").replace("16", "32"), encoding="utf-8")
-        launches, said = self.bake(*settings)
         self.scene = scene
+        self.set_box("samples = 32")
+        launches, said = self.bake(*settings)
         after = self.pictures()
         self.assertEqual(launches.count("bake_entry.py"), 1)
         self.assertIn("baking 3 lightmaps", said)
@@ -328,6 +348,127 @@ class Scenes(Reuse):
         done, launches = self.run_project(project)
         self.assertEqual((done.stderr.count("up to date"), "lambert_entry.py" in launches), (1, True))
         self.assertEqual(self.run_project(project, "--file", "hut.blend")[0].stderr.count("up to date"), 1)
+class Reference(Reuse):
+    COMMAND = "reference"
+    # Several parts for each object: a part has a million paths.
+    LONG = ("--resolution", "64", "--samples", "1024", "--bounces", "0", "--save-scene", "never")
+
+    def test_nothing_starts_no_blender(self):
+        self.assertIn("lambert_entry.py", self.bake(*FEW)[0])
+        before = self.pictures()
+        os.utime(self.scene)
+        launches, said = self.bake(*FEW)
+        self.assertEqual(launches, [])
+        self.assertIn("up to date", said)
+        launches, said = self.bake(*FEW, "--force")
+        self.assertIn("lambert_entry.py", launches)
+        self.assertNotIn("traced before", said)
+        self.assertEqual(self.pictures(), before)
+
+    def test_one_object_alone(self):
+        scene = self.scene
+        self.set_box("resolution = 16")
+        self.bake(*FEW[2:])
+        before = self.pictures()
+        self.scene = scene
+        self.set_box("resolution = 32")
+        launches, said = self.bake(*FEW[2:])
+        self.assertEqual(launches, [])
+        self.assertIn("2 of 3 targets traced before", said)
+        after = self.pictures()
+        self.assertEqual({name for name in before if before[name] != after[name]}, {"box.exr"})
+
+    def test_objects_do_not_depend_on_those_beside_them(self):
+        self.bake(*FEW, "--objects", "box")
+        alone = self.pictures()
+        launches, said = self.bake(*FEW, out="all")
+        self.assertEqual(launches, [])
+        self.assertIn("1 of 3 targets traced before", said)
+        self.assertEqual(self.pictures("all")["box.exr"], alone["box.exr"])
+
+    def test_other_samples_and_light_are_traced_anew(self):
+        self.bake(*FEW)
+        before = self.pictures()
+        launches, said = self.bake(*FEW[:2], "--samples", "16", *FEW[4:])
+        self.assertEqual(launches, [])
+        self.assertIn("because setting samples = 16", said)
+        self.assertNotIn("traced before", said)
+        more = self.pictures()
+        self.assertFalse(set(before.items()) & set(more.items()))
+        self.assertIn("3 of 3 targets traced before", self.bake(*FEW)[1])
+        self.assertEqual(self.pictures(), before)
+        for what, named in (("lamp", "light 'Area'"), ("picture", "picture 'wall.png'")):
+            self.change(what)
+            launches, said = self.bake(*FEW, "--why")
+            self.assertIn("export_entry.py", launches)
+            self.assertIn(named, said)
+            self.assertNotIn("traced before", said)
+
+    def test_without_a_cache_nothing_is_kept(self):
+        self.bake(*FEW, cache="none")
+        launches, said = self.bake(*FEW, "--samples", "8", "--depth", "float", cache="none")
+        self.assertIn("lambert_entry.py", launches)
+        self.assertNotIn("traced before", said)
+
+    def test_goes_on_to_the_same_bytes(self):
+        self.bake(*self.LONG, out="whole", cache="none")
+        whole = self.pictures("whole")
+        random.seed(7)
+        for round_ in range(ROUNDS):
+            with self.subTest(round=round_):
+                shutil.rmtree(self.folder / "cache", ignore_errors=True)
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                parts = random.randint(1, 6)
+                self.kill_when(lambda: len(self.kept("traced")) >= parts, *self.LONG)
+                self.assertEqual(self.bake(*self.LONG)[0], [])
+                self.assertEqual(self.pictures(), whole)
+                self.assertEqual(len(self.kept("traced")), 3)  # parts that were of use are gone
+
+
+class Validated(Reuse):
+    COMMAND = "validate"
+    BRIEF = (*FEW[:6], "--view", "0", "--decompose")
+
+    def finding(self, *flags, **where):
+        self.launches.write_text("", encoding="utf-8")
+        done = subprocess.run(self.command(*flags, **where), env=self.environment(), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        return self.launches.read_text(encoding="utf-8").split(), done.stdout, done.stderr
+
+    def test_nothing_starts_no_blender_and_says_its_finding_again(self):
+        launches, finding, _ = self.finding(*self.BRIEF, "none")
+        self.assertIn("bake_entry.py", launches)
+        launches, again, said = self.finding(*self.BRIEF, "none")
+        self.assertEqual(launches, [])
+        self.assertEqual(again, finding)
+        self.assertIn("up to date", said)
+        (self.folder / "out" / "receiver" / "1" / "box.exr").unlink()
+        launches, again, said = self.finding(*self.BRIEF, "none")
+        self.assertEqual(launches, [])  # all of it is in the cache
+        self.assertEqual(again, finding)
+        self.assertIn("because output box.exr is gone", said)
+
+    def test_more_objects_bake_what_is_missing(self):
+        self.finding(*self.BRIEF, "none")
+        receiver = {name: digest for name, digest in self.pictures().items() if name.startswith(("receiver", "reference"))}
+        launches, finding, said = self.finding(*self.BRIEF, "box")
+        self.assertEqual(set(launches), {"bake_entry.py"})
+        self.assertIn("3 of 3 targets baked before", said)
+        self.assertIn("3 of 3 targets traced before", said)
+        after = self.pictures()
+        self.assertEqual({name: after[name] for name in receiver}, receiver)
+        self.assertTrue(any(name.startswith("flat-normal-map") for name in after))
+        self.assertEqual(self.finding(*self.BRIEF, "box")[:2], ([], finding))
+
+    def test_goes_on_to_the_same_bytes(self):
+        self.finding(*self.BRIEF, "none", out="whole", cache="other")
+        whole = self.pictures("whole")
+        self.kill_when(lambda: (self.folder / "out" / "receiver" / "2").is_dir(), *self.BRIEF, "none")
+        launches, _, said = self.finding(*self.BRIEF, "none")
+        self.assertNotIn("lambert_entry.py", launches)
+        self.assertIn("3 of 3 targets baked before", said)
+        self.assertEqual(self.pictures(), whole)
 
 
 class Killed(Reuse):

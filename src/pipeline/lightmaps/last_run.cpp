@@ -11,6 +11,7 @@
 #include "config/value.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -22,8 +23,9 @@ using nlohmann::json;
 
 constexpr std::string_view assumed_key = "assumed = ";
 
-bool has_effect(const Setting& setting) {
-  return setting.has_effect && setting.serves(Purpose::bake);
+/// [reference] of a project file is nothing to a bake.
+bool has_effect(const Setting& setting, const std::string& command) {
+  return setting.has_effect && (command != "bake" || setting.serves(Purpose::bake));
 }
 
 std::string line_of(const SettingOverride& one) {
@@ -34,7 +36,7 @@ std::string settings_text(const ResolvedConfig& config, const std::string& comma
   std::string text = fmt::format("command = {}\nrnmbake = {}\n", command, version);
   text += fmt::format("file = {}\n", fs::absolute(config.globals.scene.file).lexically_normal().string());
   for (const SettingOverride& one : config.values()) {
-    if (has_effect(*one.setting)) text += line_of(one);
+    if (has_effect(*one.setting, command)) text += line_of(one);
   }
   for (std::size_t i = 0; i < config.overrides().size(); ++i) {
     const ObjectOverride& override_ = config.overrides()[i];
@@ -45,22 +47,6 @@ std::string settings_text(const ResolvedConfig& config, const std::string& comma
                           objects.substr(0, objects.size() - 1));
   }
   return text;
-}
-
-/// What the manifest lists, with the hashes that it has of lightmaps.
-std::vector<RunFile> written_files(const fs::path& dir) {
-  std::vector<RunFile> files{look_at("output", dir / "manifest.json")};
-  const json manifest = parse_json(read_text(dir / "manifest.json"), "manifest.json");
-  for (const json& object : manifest.at("objects")) {
-    const json hashes = object.value("hashes", json::array());  // none where an older program made it
-    for (std::size_t i = 0; i < object.at("files").size(); ++i) {
-      const std::string hash = i < hashes.size() ? hashes[i].get<std::string>() : "";
-      files.push_back(look_at("output", dir / object["files"][i].get<std::string>(), hash));
-    }
-  }
-  if (const auto saved = manifest.value("scene_with_uvs", std::string()); !saved.empty())
-    files.push_back(look_at("output", dir / saved));
-  return files;
 }
 
 /// In the settings of a record: a run without --assume-local has none.
@@ -92,14 +78,30 @@ std::string reason_but_scene(const RunRecord& record, const std::string& setting
 
 }  // namespace
 
-LastRun::LastRun(const ResolvedConfig& config, std::string command, const Needs& needs)
+std::vector<RunFile> lightmap_files(const fs::path& folder) {
+  const fs::path dir = fs::absolute(folder);
+  std::vector<RunFile> files{look_at("output", dir / "manifest.json")};
+  const json manifest = parse_json(read_text(dir / "manifest.json"), "manifest.json");
+  for (const json& object : manifest.at("objects")) {
+    const json hashes = object.value("hashes", json::array());  // none where an older program made it
+    for (std::size_t i = 0; i < object.at("files").size(); ++i) {
+      const std::string hash = i < hashes.size() ? hashes[i].get<std::string>() : "";
+      files.push_back(look_at("output", dir / object["files"][i].get<std::string>(), hash));
+    }
+  }
+  if (const auto saved = manifest.value("scene_with_uvs", std::string()); !saved.empty())
+    files.push_back(look_at("output", dir / saved));
+  return files;
+}
+
+LastRun::LastRun(const ResolvedConfig& config, const std::string& command, const Needs& needs)
     : config_(config), settings_(settings_text(config, command)) {
   if (needs.blender) {
     blender_ = blender_of(config.globals);
     settings_ += fmt::format("blender at {}\n", blender_.string());
   }
   if (!fs::exists(record_file())) {
-    reasons_.emplace_back("nothing was baked there before");
+    reasons_.emplace_back("nothing was made there before");
     return;
   }
   auto record = read_record(record_file());
@@ -156,7 +158,8 @@ Reasons LastRun::scene_changes(const SceneDigest& now) const {
   return before ? differences(before->digest, now) : Reasons{};
 }
 
-void LastRun::keep(const SceneSurvey& survey, std::size_t assumed) const {
+void LastRun::keep(const std::vector<InputFile>& inputs, const PlacedScene& scene,
+                   std::vector<RunFile> outputs, std::size_t assumed) const {
   const BakeSettings& settings = config_.globals;
   RunRecord record{settings_ + assumed_line(assumed),
                    {look_at("program", fs::read_symlink("/proc/self/exe"))}};
@@ -167,12 +170,11 @@ void LastRun::keep(const SceneSurvey& survey, std::size_t assumed) const {
   add("project file", config_.project_file);
   add("scene", settings.scene.file);
   add("basis file", settings.bake.basis);
-  for (const InputFile& input : survey.inputs) {
+  for (const InputFile& input : inputs) {
     if (input.path != fs::absolute(settings.scene.file)) add(input.kind.c_str(), input.path);
   }
-  for (RunFile& file : written_files(fs::absolute(settings.output.dir)))
-    record.files.push_back(std::move(file));
-  write_atomically(digest_file(), to_json(place_scene(survey)).dump() + "\n");
+  std::ranges::move(outputs, std::back_inserter(record.files));
+  write_atomically(digest_file(), to_json(scene).dump() + "\n");
   write_record(record_file(), record);
 }
 

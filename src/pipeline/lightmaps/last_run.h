@@ -4,7 +4,6 @@
 #include "config/resolve.h"
 #include "jobs/run_record.h"
 #include "scene/scene_places.h"
-#include "scene/survey.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -23,9 +22,9 @@ class LastRun {
     bool is_settled = true;  // lightmaps that were assumed to be as they were are a reason to run
   };
 
-  /// `command`: "bake", "reference". Throws Error(environment) where the run needs a Blender and there is
-  /// none.
-  LastRun(const ResolvedConfig& config, std::string command, const Needs& needs);
+  /// `command`: "bake", "reference", and a line for each flag of its own that decides what comes out. Throws
+  /// Error(environment) where the run needs a Blender and there is none.
+  LastRun(const ResolvedConfig& config, const std::string& command, const Needs& needs);
 
   /// Why it has to be run; empty: it need not be.
   [[nodiscard]] const Reasons& reasons() const { return reasons_; }
@@ -42,9 +41,10 @@ class LastRun {
   /// What else than the scene is not as it was in that run: settings, the program, Blender; "": nothing.
   [[nodiscard]] const std::string& other_than_scene() const { return other_; }
 
-  /// Keeps this run, all of whose objects were delivered, for the next one. `assumed`: lightmaps that were
-  /// assumed to be as they were.
-  void keep(const SceneSurvey& survey, std::size_t assumed = 0) const;
+  /// Keeps this run, which made all that it should, for the next one. `inputs`, `scene`: what it read;
+  /// `outputs`: what it wrote; `assumed`: lightmaps that were assumed to be as they were.
+  void keep(const std::vector<InputFile>& inputs, const PlacedScene& scene, std::vector<RunFile> outputs,
+            std::size_t assumed = 0) const;
 
   /// The record's file in an output folder.
   [[nodiscard]] static std::filesystem::path record_in(const std::filesystem::path& dir);
@@ -57,8 +57,11 @@ class LastRun {
   std::filesystem::path blender_;  // empty: not needed
   std::string settings_;
   Reasons reasons_;
-  std::string other_ = "nothing was baked there before";
+  std::string other_ = "nothing was made there before";
   std::vector<RunFile> files_;  // of the last run
 };
+
+/// Manifest, lightmaps and scene in a folder of lightmaps, with the hashes that the manifest has of them.
+[[nodiscard]] std::vector<RunFile> lightmap_files(const std::filesystem::path& folder);
 
 }  // namespace rnmbake

@@ -26,7 +26,8 @@ struct PassBake {
     BlenderSession session(scene.config(), blender);
     BakeCollector collector(BakeContext{context.survey, context.targets, context.bases, planned},
                             scene.settings().output, scene.headers(), preview);
-    const auto recipe = receiver_requests(scene.settings(), context.survey, planned);
+    auto recipe = receiver_requests(scene.settings(), context.survey, planned);
+    recipe.in_passes = in_passes;
     const PassCache cache(store, KeyMaker().add("scene", "a").make("scene"));
     DispatchRules rules{cache, deadline};
     rules.preview = preview;
@@ -50,7 +51,7 @@ struct PassBake {
   Plan planned;
   FakeBlender blender;
   std::optional<double> deadline;
-  bool delivered = false, preview = false;
+  bool delivered = false, preview = false, in_passes = true;
   std::vector<Delivered> outcome;  // [targets]
 };
 
@@ -143,6 +144,19 @@ TEST(Passes, OfMoreSamplesGoOnFromThoseThatAreThere) {
   }
   for (const auto& [seed, count] : samples) EXPECT_EQ(count, (1 << 17) - (1 << 15)) << seed;
   EXPECT_EQ(samples.size(), 2U);
+}
+
+TEST(Passes, OfWhatIsBakedAsAWholeAddToNothing) {
+  const TempFolder cache, other;
+  PassBake few(cache.path(), 16), many(cache.path(), 64), alone(other.path(), 64);
+  for (PassBake* bake : {&few, &many, &alone}) {
+    bake->in_passes = false;
+    bake->blender.noise = 1;
+    (void)bake->run();
+  }
+  ASSERT_EQ(many.outcome.size(), 2U);
+  EXPECT_NE(few.outcome[0].hashes, many.outcome[0].hashes) << "the test is too weak";
+  EXPECT_EQ(many.outcome[0].hashes, alone.outcome[0].hashes);
 }
 
 TEST(Passes, GoOnUntilTheNoiseIsSmallEnough) {

@@ -4,12 +4,14 @@
 #include "blender/blender_session.h"
 #include "encoding/basis_set.h"
 #include "image/layered_exr.h"
+#include "jobs/store.h"
 #include "pipeline/traced_scene.h"
 #include "process/stop.h"
 
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,9 @@ class Tracing {
     plan.blender_version = "4.3.2";
   }
 
-  ReferenceOutcome run() {
+  ReferenceOutcome run(const TraceCache& kept = {}) {
     const TraceScene scene(exported.diffuse_scene, plan.blender_version);
-    return run_reference({scene, exported.list, bases_}, settings, plan);
+    return run_reference({scene, exported.list, bases_, {}, kept}, settings, plan);
   }
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
@@ -129,6 +131,68 @@ TEST(ReferenceRun, OfABakeIsOne) {
   tracing.settings.output.depth = Depth::half;
   (void)tracing.run();
   EXPECT_EQ(tracing.read("floor.exr").find("rnm2_stderr"), nullptr);
+}
+
+/// Rays of what is traced, none of what is kept.
+class TracedBefore : public testing::Test {
+ protected:
+  TracedBefore() : tracing(floor_under_sky()) {}
+  std::int64_t rays(const std::string& content = "scene", bool anew = false) {
+    return tracing.run({&store, content, anew}).rays;
+  }
+
+  TempFolder folder;
+  Store store{folder.path() / "cache", 0};
+  Tracing tracing;
+};
+
+TEST_F(TracedBefore, IsNotTracedAgain) {
+  const std::int64_t first = rays();
+  EXPECT_GT(first, 0);
+  const std::string before = read_text(tracing.file("floor.exr"));
+  const auto manifest = tracing.manifest().at("objects").at(0);
+  tracing.plan.threads = 1;
+  EXPECT_EQ(rays(), 0);
+  EXPECT_EQ(read_text(tracing.file("floor.exr")), before);
+  EXPECT_EQ(tracing.manifest().at("objects").at(0), manifest);
+  EXPECT_EQ(rays("scene", true), first);
+  EXPECT_EQ(read_text(tracing.file("floor.exr")), before);
+}
+
+TEST_F(TracedBefore, IsTracedAnewWhereAnythingDiffers) {
+  const std::int64_t first = rays();
+  const std::vector<std::function<void()>> changes{
+      [&] { tracing.exported.list.settings[0].samples = 32; },
+      [&] { tracing.exported.list.settings[0].seed = 1; },
+      [&] { tracing.exported.list.targets[0].width = 16; },
+      [&] { tracing.exported.list.targets[0].flip_green = true; },
+      [&] { tracing.exported.list.targets[0].key = "other"; },
+      [&] { tracing.plan.bounces = 3; },
+      [&] { tracing.plan.sh = 2; },
+      [&] { tracing.plan.footprint = Footprint::centre; },
+      [&] { tracing.plan.past_edge = PastEdge::mirror; },
+      [&] { tracing.plan.error = 0.01; },
+      [&] { tracing.plan.blender_version = "5.2.2"; },
+      [&] { tracing.plan.faults.tilt_clamp = true; }};
+  EXPECT_GT(first, 0);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i]();
+    EXPECT_GT(rays(), 0) << i;
+    EXPECT_EQ(rays(), 0) << i;
+  }
+  EXPECT_GT(rays("another scene"), 0);
+}
+
+TEST_F(TracedBefore, IsTakenWhateverIsTracedBesideIt) {
+  add_object(tracing.exported.diffuse_scene, "shelf", {level(0.5F, 0.2F)}, Vec3(0.5F));
+  const std::int64_t floor = rays();
+  const std::string before = read_text(tracing.file("floor.exr"));
+  add_target(tracing.exported, 1, 8);
+  std::swap(tracing.exported.list.targets[0], tracing.exported.list.targets[1]);
+  const std::int64_t shelf = rays();
+  EXPECT_GT(shelf, 0);
+  EXPECT_EQ(read_text(tracing.file("floor.exr")), before);
+  EXPECT_EQ(rays("scene", true), floor + shelf);
 }
 
 TEST(ReferenceRun, OfABakeStopsAtEachObjectsNoise) {
