@@ -19,7 +19,7 @@ import time
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "bench" / "results" / "reliability.json"
 SCENE = ROOT / "tests" / "with_blender" / "scenes" / "reuse_scene.py"
-FLAGS = ("--resolution", "32", "--samples", "512", "--bounces", "0", "--save-scene", "never", "-q")
+FLAGS = ("--resolution", "16", "--samples", "128", "--bounces", "0", "--save-scene", "never", "-q")
 
 
 class Bench:

@@ -28,9 +28,10 @@ def main(task):
         ob = bpy.context.scene.objects[placed["object"]]
         place_uvs.place(ob, placed["scale"], placed["offset"])
         ob[NODE_PROPERTY] = index
-    notes = materials.settle([bpy.context.scene.objects[placed["object"]] for placed in request["objects"]])
+    objects = [bpy.context.scene.objects[placed["object"]] for placed in request["objects"]]
+    notes = materials.settle(objects)
     plain = task.path("plain.glb")
-    export(plain, request)
+    export(plain, request, with_tangents=materials.have_normal_maps(objects))
     glb = glb_file.Glb.read(plain)
     nodes = glb_file.add_lightmaps(glb, request, NODE_PROPERTY)
     glb.write(request["save_as"])
@@ -44,11 +45,11 @@ def require_exporter():
             raise core_task.Refusal(f"this Blender cannot write glTF: {module} is missing; {remedy}", core_task.ENVIRONMENT)
 
 
-def export(path, request):
+def export(path, request, with_tangents):
     """Blender's own exporter; what it says goes to the launch's log."""
     wanted = {"filepath": path, "export_format": "GLB", "check_existing": False, "use_renderable": True,
               "use_active_scene": True, "export_apply": True, "export_cameras": request["cameras"],
-              "export_lights": request["lights"], "export_extras": True, "export_tangents": True, "export_animations": False,
+              "export_lights": request["lights"], "export_extras": True, "export_tangents": with_tangents, "export_animations": False,
               "convert_lighting_mode": "SPEC", "export_import_convert_lighting_mode": "SPEC"}  # before and since 3.6
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})

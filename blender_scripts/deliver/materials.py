@@ -23,6 +23,11 @@ def settle(objects):
     return [note for note in notes if note]
 
 
+def have_normal_maps(objects):
+    trees = [slot.material.node_tree for ob in objects for slot in ob.material_slots if slot.material.use_nodes]
+    return any(node.type == "NORMAL_MAP" for tree in trees for node in tree.nodes)
+
+
 def new_bare():
     """What Cycles shows where there is no material; glTF's own default is a white metal."""
     material = bpy.data.materials.new("no material")

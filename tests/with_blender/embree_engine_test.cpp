@@ -48,7 +48,8 @@ TEST(EmbreeEngine, AgreesWithCyclesToNoise) {
   const auto blend = bench.build({"cornell", {}});
   const Words flags{"--resolution", "16", "--samples", "256", "--bounces", "8"};
   Words by_embree = flags;
-  by_embree.insert(by_embree.end(), {"--engine", "embree"});
+  // The scatter of texels says too little of the noise of their mean where they share paths: ours gets small.
+  by_embree.insert(by_embree.end(), {"--engine", "embree", "--samples", "4096"});
   const Baked cycles = bench.bake(blend, flags), embree = bench.bake(blend, by_embree);
   for (const char* object : {"floor", "ceiling", "left", "right", "back"}) {
     const LayeredImage ours = embree.lightmap(object), theirs = cycles.lightmap(object);

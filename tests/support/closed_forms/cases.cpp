@@ -2,10 +2,13 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "lightmap/metadata.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -38,24 +41,47 @@ Words effort(int resolution, int samples, int bounces) {
           "--bounces",    std::to_string(bounces)};
 }
 
-Outcome compare_layer(const Layer& layer, const FloatImage& coverage, const std::string& basis,
-                      double expected) {
-  Outcome outcome{basis, expected};
-  double sum = 0, squares = 0;
+/// Errors over a square of texels.
+struct Tile {
+  double error = 0, texels = 0;
+};
+
+/// Of the mean over all tiles, from the spread over them: a ratio estimator's.
+double standard_error_of(const std::map<std::pair<int, int>, Tile>& tiles, double mean_error, double texels) {
+  double squares = 0;
+  for (const auto& [place, tile] : tiles) squares += std::pow(tile.error - mean_error * tile.texels, 2);
+  const auto count = double(tiles.size());
+  return std::sqrt(squares * count / (count - 1)) / texels;
+}
+
+/// `tile_side`: texels closer than that may have their noise in common.
+Outcome compare_layer(const Layer& layer, const FloatImage& coverage, const BasisDirection& basis,
+                      double expected, int tile_side) {
+  Outcome outcome{basis.name, expected};
+  std::map<std::pair<int, int>, Tile> tiles;
+  double sum = 0;
   for (int y = 0; y < coverage.height(); ++y) {
     for (int x = 0; x < coverage.width(); ++x) {
       if (coverage.texel(x, y)[0] == 0) continue;
       const double error = double(layer.pixels.texel(x, y)[0]) - expected;
       sum += error;
-      squares += error * error;
+      Tile& tile = tiles[{y / tile_side, x / tile_side}];
+      tile.error += error;
+      tile.texels += 1;
       outcome.largest = std::max(outcome.largest, std::abs(error));
       ++outcome.texels;
     }
   }
   const double n = double(outcome.texels), mean_error = sum / n;
   outcome.mean = expected + mean_error;
-  outcome.standard_error = std::sqrt(std::max(0.0, squares / n - mean_error * mean_error) / (n - 1));
+  outcome.standard_error = standard_error_of(tiles, mean_error, n);
   return outcome;
+}
+
+/// The tracer gathers blocks of neighbouring texels with the same paths; Cycles' texels are on their own.
+int tile_side_of(const LayeredImage& lightmap) {
+  const std::string recipe = read_metadata(lightmap, "lightmap").recipe;
+  return recipe == "reference" || recipe == "traced" ? 8 : 1;
 }
 
 }  // namespace
@@ -81,7 +107,7 @@ std::vector<Outcome> compare(const LayeredImage& lightmap,
     const Layer* layer = lightmap.find(basis.name == "flat" ? "" : basis.name);
     if (layer == nullptr || coverage == nullptr)
       fail(ExitCode::tasks_failed, "the lightmap has no layer for {}", basis.name);
-    outcomes.push_back(compare_layer(*layer, coverage->pixels, basis.name, truth(basis)));
+    outcomes.push_back(compare_layer(*layer, coverage->pixels, basis, truth(basis), tile_side_of(lightmap)));
   }
   return outcomes;
 }

@@ -17,9 +17,10 @@ struct Outcome {
   std::string basis;
   double expected = 0;
   double mean = 0;
-  double standard_error = 0;  // of the mean, from the spread over the texels
-  double largest = 0;         // |value - expected| of the worst texel
-  std::size_t texels = 0;     // covered
+  double standard_error =
+      0;                   // of the mean, from the spread over texels, or over 8 x 8 where they share paths
+  double largest = 0;      // |value - expected| of the worst texel
+  std::size_t texels = 0;  // covered
 
   [[nodiscard]] double error() const { return mean - expected; }
   /// What the mean may be off: 0.2 %, or three standard errors where noise is more than that.
