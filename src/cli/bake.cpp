@@ -248,7 +248,7 @@ std::function<int()> add_bake_command(CLI::App& app) {
       ->add_option("--assume-local", more->assume_local,
                    "bake again only what lies within so many scene units of a change (docs/bake.md)")
       ->type_name("X")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(CLI::Range(0.0, 1e9).description(""));
   command
       ->add_option("--merge", more->merge,
                    "bake nothing: merge what the tasks of this plan (rnmbake submit) baked")

@@ -138,7 +138,7 @@ std::function<int()> add_task_command(CLI::App& app) {
       ->type_name("PROGRAM");
   run_command->add_option("--threads", flags->node.threads, "threads of Blender")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, 1024).description(""));
   run_command->add_flag("--keep-temporary", flags->node.keep_temporary,
                         "keep what Blender was given and returned");
   return [command, run_command, merge_command, flags] {

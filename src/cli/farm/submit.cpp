@@ -112,7 +112,7 @@ std::function<int()> add_submit_command(CLI::App& app) {
       ->type_name("PATH");
   command->add_option("--task-minutes", flags->task_minutes, "length of a task, on two cores")
       ->type_name("X")
-      ->check(CLI::Range(0.01, 1e5))
+      ->check(CLI::Range(0.01, 1e5).description(""))
       ->capture_default_str();
   flags->queue.add_to(*command);
   command->add_option("--export", flags->exported, "write the plan down as a job for another queue, too")
