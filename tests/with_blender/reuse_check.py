@@ -314,14 +314,14 @@ class Scenes(Reuse):
     def project(self, *names):
         project = self.folder / "scene" / "game.toml"
         project.write_text('[bake]\nresolution = 16\nsamples = 8\nbounces = 2\nengine = "embree"\n[output]\nsave_scene = "never"\n'
-                           f'dir = "maps"\n[run]\nblender = "{self.wrapper}"\n[[override]]\nobjects = "box"\nsamples = 16\n'
+                           'dir = "maps"\n[[override]]\nobjects = "box"\nsamples = 16\n'
                            + "".join(f'[[scenes]]\nfile = "{name}.blend"\n' for name in names), encoding="utf-8")
         return project
 
     def run_project(self, project, *flags):
         self.launches.write_text("", encoding="utf-8")
-        done = subprocess.run([binary(), "bake", str(project), *flags], env=self.environment(), stdin=subprocess.DEVNULL,
-                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+        done = subprocess.run([binary(), "bake", str(project), "--blender", str(self.wrapper), *flags],
+                              env=self.environment(), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
         return done, self.launches.read_text(encoding="utf-8").split()
 
     def test_all_are_baked_and_one_that_fails_stops_none(self):
@@ -341,7 +341,9 @@ class Scenes(Reuse):
     def test_nothing_starts_no_blender(self):
         shutil.copy(self.scene, self.scene.with_name("hut.blend"))
         project = self.project("hut", "room")
-        self.assertEqual(self.run_project(project)[0].returncode, OK)
+        done, launches = self.run_project(project)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn("lambert_entry.py", launches)
         done, launches = self.run_project(project)
         self.assertEqual((launches, done.stderr.count("up to date")), ([], 2))
         self.change("lamp")
@@ -451,7 +453,8 @@ class Validated(Reuse):
 
     def test_more_objects_bake_what_is_missing(self):
         self.finding(*self.BRIEF, "none")
-        receiver = {name: digest for name, digest in self.pictures().items() if name.startswith(("receiver", "reference"))}
+        receiver = {name: digest for name, digest in self.pictures().items()
+                    if name.startswith(("receiver", "reference"))}
         launches, finding, said = self.finding(*self.BRIEF, "box")
         self.assertEqual(set(launches), {"bake_entry.py"})
         self.assertIn("3 of 3 targets baked before", said)
