@@ -11,6 +11,7 @@
 #include "process/run.h"
 #include "process/tree.h"
 
+#include <cstdlib>
 #include <random>
 
 namespace rnmbake {
@@ -152,6 +153,14 @@ std::vector<std::string> launch_argv(const BlenderInfo& info, const ScriptFolder
   return argv;
 }
 
+/// PATH with Blender's own folder in front. A Blender that a Linux distribution links against its own Python
+/// takes the first python3 there for it, and finds that one's packages: of pyenv or conda, without numpy.
+std::string path_of(const BlenderInfo& info) {
+  const char* path = std::getenv("PATH");
+  const std::string own = fs::absolute(info.executable).parent_path().string();
+  return path == nullptr ? own : own + ":" + path;
+}
+
 LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& scripts, const LaunchTrust& trust,
                              const Launch& launch, const LaunchLimits& limits,
                              const std::function<void(const ProgressEvent&)>& on_progress) {
@@ -161,6 +170,7 @@ LaunchOutcome launch_blender(const BlenderInfo& info, const ScriptFolder& script
   ProcessOptions options;
   options.argv = launch_argv(info, scripts, trust, launch);
   options.environment = private_environment(launch.folder, trust.sandbox ? "" : scripts.bytecode());
+  options.environment.emplace_back("PATH", path_of(info));
   if (trust.sandbox) {
     options.argv = sandboxed(options.argv, sandbox_for(*trust.sandbox, info, scripts, launch));
     options.bare = true;
