@@ -27,7 +27,7 @@ def run_blender(script, *arguments, scene=None, **more):
     done = subprocess.run(
         [blender(), "-b", "--factory-startup", "-noaudio", "--python-exit-code", "86", *opened, "--python", str(script),
          "--", *map(str, arguments)],
-        env={**os.environ, **more}, stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_SECONDS)
+        env={**os.environ, "PATH": f"{Path(blender()).parent}:{os.environ['PATH']}", **more}, stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_SECONDS)
     if done.returncode != OK:
         said = (done.stdout + done.stderr).decode(errors="replace")
         raise AssertionError(f"Blender ended with {done.returncode}: {said[-4000:]}")

@@ -29,7 +29,7 @@ PACKAGES = ("three@0.187.0", "gltf-validator@2.0.0-dev.3.10")
 PANELS = ROOT / "scenes" / "built" / "panels.blend"
 QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
 WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
-BLOCK = 5  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
+BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
 # UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
 KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
 
@@ -201,7 +201,7 @@ class ThreeJs(Delivered):
         """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
         picture = self.top / f"{decode}.exr"
         done = rnmbake("render", self.scene, "--lightmaps", self.maps, "--decode", decode, "-o", picture, "--resolution",
-                       f"{WIDTH}x{HEIGHT}", "-q")
+                       f"{WIDTH}x{HEIGHT}", "--samples", "256", "-q")
         self.assertEqual(done.returncode, OK, done.stderr)
         said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(picture)], capture_output=True, text=True,
                               check=True).stdout
@@ -225,7 +225,7 @@ class ThreeJs(Delivered):
                 compared += 1
                 if abs(other - mean) > .02 * mean:
                     off.append((left, top, other / mean))
-        self.assertGreater(compared, 800)
+        self.assertGreater(compared, 250)
         self.assertLessEqual(len(off), .05 * compared, off[:20])
 
     def test_directional_light_is_that_of_render(self):
