@@ -82,11 +82,12 @@ rnm_check(outputs.check blender 1200 with_blender/outputs)
 
 rnm_check(saved_scene.check blender 1200 with_blender/saved_scene)
 
-# A bake as tasks for many machines, and on a Slurm of two nodes, which runs two Blenders at a time.
+# A bake as tasks for many machines, and on a Slurm of two nodes. (All of class Slurm, five minutes: farm/slurm_check.py.)
 rnm_check(farm.Tasks "blender;farm" 2400 farm/farm ARGS Tasks)
 rnm_check(farm.NoSlurm "blender;farm" 1200 farm/slurm ARGS NoSlurm)
-rnm_check(farm.Slurm "blender;farm" 2400 farm/slurm ARGS Slurm)
-set_tests_properties(farm.Slurm PROPERTIES PROCESSORS 2 SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+rnm_check(farm.Slurm "blender;farm" 2400 farm/slurm ARGS Slurm.test_a_lost_node_is_made_up_for
+          Slurm.test_a_failing_object_stops_its_own_merge_alone Slurm.test_a_node_that_does_not_see_the_cache)
+set_tests_properties(farm.Slurm PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
 # A plan as a job of other queues, run by their own programs.
 foreach(CLASS OpenJobDescription Flamenco)
