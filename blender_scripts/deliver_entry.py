@@ -2,8 +2,8 @@
 
 Request: "objects": [{"object", "key", "page", "scale", "offset"}], where a lightmap's UV times scale plus offset is its place on
 a page (of UVs as Blender has them, v upwards); "pages": PNG files, which go into the .glb; "intensity": what their values
-are to be multiplied by to be irradiance; "record": JSON that is handed on as it is (docs/deliver.md); "lights", "cameras": whether the
-file is to have them; "save_as": the file.
+are to be multiplied by to be irradiance; "record": JSON that is handed on as it is (docs/deliver.md); "lights": whether the file is to
+have the scene's lamps; "save_as": the file.
 """
 import importlib.util
 import os
@@ -48,7 +48,7 @@ def require_exporter():
 def export(path, request, with_tangents):
     """Blender's own exporter; what it says goes to the launch's log."""
     wanted = {"filepath": path, "export_format": "GLB", "check_existing": False, "use_renderable": True,
-              "use_active_scene": True, "export_apply": True, "export_cameras": request["cameras"],
+              "use_active_scene": True, "export_apply": True, "export_cameras": True,
               "export_lights": request["lights"], "export_extras": True, "export_tangents": with_tangents, "export_animations": False,
               "convert_lighting_mode": "SPEC", "export_import_convert_lighting_mode": "SPEC"}  # before and since 3.6
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()

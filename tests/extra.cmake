@@ -74,8 +74,11 @@ rnm_check(attic.check blender 1200 with_blender/attic)
 
 rnm_check(manifest.schema blender 1200 with_blender/manifest)
 
-foreach(CLASS Changes Killed Local Reference Scenes Traced Validated)
+foreach(CLASS Changes Killed Local Scenes)
   rnm_check(reuse.${CLASS} blender 1200 with_blender/reuse ARGS ${CLASS})
+endforeach()
+foreach(CLASS Reference Traced Validated)
+  rnm_check(reuse.${CLASS} blender 1200 with_blender/reuse_traced ARGS ${CLASS})
 endforeach()
 
 rnm_check(outputs.check blender 1200 with_blender/outputs)

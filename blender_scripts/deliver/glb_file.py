@@ -5,7 +5,7 @@ Khronos, "glTF 2.0 Specification", 4.4 (GLB). MOZ_lightmap: a texture, the UV se
 import copy
 import json
 
-from core.gltf_file import CHUNK_HEADER, GLB_HEADER
+from core.gltf_file import CHUNK_HEADER, GLB_HEADER, read_gltf
 
 EXTENSION = "MOZ_lightmap"
 LIGHTMAP_SET = 1  # TEXCOORD_1
@@ -19,15 +19,11 @@ class Glb:
 
     @classmethod
     def read(cls, path):
+        gltf = read_gltf(path)
+        offset, length = gltf.binary or (0, 0)
         with open(path, "rb") as stream:
-            data = stream.read()
-        chunks, at = [], GLB_HEADER.size
-        while at < len(data):
-            length, _ = CHUNK_HEADER.unpack_from(data, at)
-            at += CHUNK_HEADER.size
-            chunks.append(data[at:at + length])
-            at += length
-        return cls(json.loads(chunks[0]), bytearray(chunks[1]) if len(chunks) > 1 else bytearray())
+            stream.seek(offset)
+            return cls(gltf.json, bytearray(stream.read(length)))
 
     def write(self, path):
         self.json["buffers"] = [{"byteLength": len(self.binary)}]

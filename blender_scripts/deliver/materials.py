@@ -1,22 +1,18 @@
 """Materials, in the words that glTF has: one Principled BSDF. What has to stay as it is gets a note."""
-import bpy
-
 from scene_ops.describe_nodes import active_output, find_input
-from scene_ops.plain_material import NO_MATERIAL
+from scene_ops.plain_material import NO_MATERIAL, new_diffuse
 
 COLOR_NODES = ("TEX_IMAGE", "RGB", "VERTEX_COLOR")
 
 
 def settle(objects):
     """Of these objects, for this export alone. Returns the notes, one for each material."""
-    bare = None
+    bare = new_diffuse("no material", NO_MATERIAL)  # as Cycles shows it; glTF's own default is a white metal
     for ob in objects:
         if not ob.material_slots:
-            bare = bare or new_bare()
             ob.data.materials.append(bare)
         for slot in ob.material_slots:
             if slot.material is None:
-                bare = bare or new_bare()
                 slot.material = bare
     used = {slot.material for ob in objects for slot in ob.material_slots}
     notes = [settle_one(material) for material in sorted(used, key=lambda material: material.name_full)]
@@ -26,17 +22,6 @@ def settle(objects):
 def have_normal_maps(objects):
     trees = [slot.material.node_tree for ob in objects for slot in ob.material_slots if slot.material.use_nodes]
     return any(node.type == "NORMAL_MAP" for tree in trees for node in tree.nodes)
-
-
-def new_bare():
-    """What Cycles shows where there is no material; glTF's own default is a white metal."""
-    material = bpy.data.materials.new("no material")
-    material.use_nodes = True
-    nodes = material.node_tree.nodes
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Base Color"].default_value = (*NO_MATERIAL, 1)
-    make_matt(shader)
-    return material
 
 
 def settle_one(material):

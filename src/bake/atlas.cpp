@@ -86,7 +86,7 @@ bool all_placed(const std::vector<stbrp_rect>& rects) {
   return std::ranges::all_of(rects, [](const stbrp_rect& rect) { return rect.was_packed != 0; });
 }
 
-constexpr int tried_widths = 64;
+constexpr int tried_widths = 64, block_side = 4;
 
 /// Texels, a tenth more for each time that the page is longer than wide, or wider than long.
 double cost_of(RectSize size) {
@@ -96,8 +96,10 @@ double cost_of(RectSize size) {
 
 /// Adds the smallest page that holds all of the rectangles, or a whole one with as many as fit; gives the
 /// others back.
-std::vector<stbrp_rect> fill_page(AtlasPlan& plan, const std::vector<stbrp_rect>& rects, int side, int step) {
-  const auto rounded = [&](int length) { return std::min((length + step - 1) / step * step, side); };
+std::vector<stbrp_rect> fill_page(AtlasPlan& plan, const std::vector<stbrp_rect>& rects, int side) {
+  const auto rounded = [&](int length) {
+    return std::min((length + block_side - 1) / block_side * block_side, side);
+  };
   std::vector<stbrp_rect> best;
   RectSize smallest{side, side};
   for (int i = 1; i <= tried_widths; ++i) {
@@ -135,7 +137,7 @@ AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
   return plan;
 }
 
-AtlasPlan pack_pages(const std::vector<RectSize>& rects, int side, int step) {
+AtlasPlan pack_pages(const std::vector<RectSize>& rects, int side) {
   AtlasPlan plan;
   plan.placements.resize(rects.size());
   std::vector<stbrp_rect> left;
@@ -144,7 +146,7 @@ AtlasPlan pack_pages(const std::vector<RectSize>& rects, int side, int step) {
       throw std::invalid_argument("a rectangle is larger than a page");
     left.push_back({static_cast<int>(i), rects[i].width, rects[i].height, 0, 0, 0});
   }
-  while (!left.empty()) left = fill_page(plan, left, side, step);
+  while (!left.empty()) left = fill_page(plan, left, side);
   return plan;
 }
 

@@ -110,9 +110,9 @@ void AtomicFile::write_at(std::string_view bytes, std::int64_t offset) {
   }
 }
 
-void AtomicFile::commit() {
+bool AtomicFile::commit() {
   // Builds (make, Ninja) do nothing over again that depends on a file whose time stays.
-  if (same_bytes(temporary_, target_)) return;  // the destructor removes the temporary
+  if (same_bytes(temporary_, target_)) return false;  // the destructor removes the temporary
   // A library may have put another file in our file's place, so sync what the name stands for now.
   ::close(descriptor_);
   descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
@@ -120,15 +120,16 @@ void AtomicFile::commit() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_writing(target_, errno);
   committed_ = true;
   sync_folder(folder_of(target_));
+  return true;
 }
 
-void write_atomically(const fs::path& path, std::string_view bytes) {
+bool write_atomically(const fs::path& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);
-  file.commit();
+  return file.commit();
 }
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& writer) {
+bool write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& writer) {
   AtomicFile file(path);
   try {
     writer(file.temporary());
@@ -137,7 +138,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     if (disk_is_full(folder_of(path))) fail_writing(path, ENOSPC);
     throw;
   }
-  file.commit();
+  return file.commit();
 }
 
 void make_folders(const fs::path& folder) {

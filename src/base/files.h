@@ -27,8 +27,9 @@ class AtomicFile {
   /// At a place of the file, which may lie beyond its end.
   void write_at(std::string_view bytes, std::int64_t offset);
 
-  /// fsync, then rename over the target; one that holds the same bytes is left alone, so that its time stays.
-  void commit();
+  /// fsync, then rename over the target; one that holds the same bytes is left alone, so that its time stays:
+  /// false.
+  bool commit();
 
  private:
   std::filesystem::path target_, temporary_;
@@ -36,12 +37,12 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// The whole file at once.
-void write_atomically(const std::filesystem::path& path, std::string_view bytes);
+/// The whole file at once. False: it held these bytes already.
+bool write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// Lets `writer` fill the temporary path it is given, then moves the file to `path`. What the writer throws
-/// passes through, except that a full disk is named as such.
-void write_atomically(const std::filesystem::path& path,
+/// passes through, except that a full disk is named as such. False: as above.
+bool write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& writer);
 
 /// The whole file. Error(io) if it cannot be read.

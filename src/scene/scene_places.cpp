@@ -1,5 +1,7 @@
 #include "scene/scene_places.h"
 
+#include "scene/survey_parse.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -172,19 +174,16 @@ PlacedScene place_scene(const SceneSurvey& survey) {
 }
 
 json to_json(const PlacedScene& scene) {
-  json parts = json::array(), objects = json::array(), lamps = json::array();
-  for (const DigestEntry& entry : scene.digest.entries) parts.push_back({entry.what, entry.hash, entry.uses});
+  json objects = json::array(), lamps = json::array();
   for (const PlacedObject& object : scene.objects)
     objects.push_back({object.key, object.parts, numbers(object.box.min), numbers(object.box.max)});
   for (const PlacedLamp& lamp : scene.lamps) lamps.push_back({lamp.part, numbers(lamp.position), lamp.reach});
-  return {{"parts", parts}, {"objects", objects}, {"lamps", lamps}};
+  return {{"parts", to_json(scene.digest)}, {"objects", objects}, {"lamps", lamps}};
 }
 
 PlacedScene placed_scene_from(const json& text) {
   PlacedScene scene;
-  for (const json& one : text.at("parts"))
-    scene.digest.entries.push_back({one.at(0).get<std::string>(), one.at(1).get<std::string>(),
-                                    one.at(2).get<std::vector<std::string>>()});
+  scene.digest = read_digest(text.at("parts"));
   for (const json& one : text.at("objects"))
     scene.objects.push_back({one.at(0).get<std::string>(), one.at(1).get<std::vector<std::string>>(),
                              Box(vector_from(one.at(2)), vector_from(one.at(3)))});

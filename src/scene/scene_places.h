@@ -41,7 +41,7 @@ struct PlacedScene {
 [[nodiscard]] PlacedScene place_scene(const SceneSurvey& survey);
 
 [[nodiscard]] nlohmann::json to_json(const PlacedScene& scene);
-/// Throws nlohmann::json::exception where it is none.
+/// Throws nlohmann::json::exception where it is none, else as read_digest().
 [[nodiscard]] PlacedScene placed_scene_from(const nlohmann::json& json);
 
 /// What differs between two scenes, by where it is, before and after.

@@ -128,6 +128,13 @@ Mat44 read_matrix(const json& values, const std::string& owner) {
   return matrix;
 }
 
+json to_json(const SceneDigest& digest) {
+  json list = json::array();
+  for (const DigestEntry& entry : digest.entries)
+    list.push_back({{"what", entry.what}, {"hash", entry.hash}, {"uses", entry.uses}});
+  return list;
+}
+
 SceneDigest read_digest(const json& list) {
   SceneDigest digest;
   for (const json& entry : list)

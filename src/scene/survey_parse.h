@@ -14,9 +14,10 @@ namespace rnmbake {
 /// The files of a launch's answer or a survey: [{"kind", "path", "there"}].
 [[nodiscard]] std::vector<InputFile> read_inputs(const nlohmann::json& list);
 
-/// The digest in a launch's answer or a survey: [{"what", "hash"}]. Throws Error(invalid_input) for a part
-/// that is there twice.
+/// The digest in a launch's answer or a survey: [{"what", "hash", "uses"}]. Throws Error(invalid_input) for a
+/// part that is there twice.
 [[nodiscard]] SceneDigest read_digest(const nlohmann::json& list);
+[[nodiscard]] nlohmann::json to_json(const SceneDigest& digest);
 
 /// The binary part that `content` names; beside it, and nowhere else.
 [[nodiscard]] std::filesystem::path data_file(const nlohmann::json& content,

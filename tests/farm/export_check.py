@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "with_blender"))
-from harness import LIMIT_SECONDS, OK, SCENES, USAGE, binary, environment, run_blender  # noqa: E402
+from harness import LIMIT_SECONDS, OK, SCENES, USAGE, binary, run_blender, run_program  # noqa: E402
 
 OPENJD = "openjd-cli==0.8.0"
 SHIM = Path(__file__).resolve().parent / "flamenco_shim.js"
@@ -40,11 +40,7 @@ class Export(unittest.TestCase):
 
     @classmethod
     def run_program(cls, program, *words, code=OK, cwd=None):
-        done = subprocess.run([program, *map(str, words)], env=environment(), cwd=cwd or cls.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
-        if done.returncode != code:
-            raise AssertionError(f"{program} ended with {done.returncode}: {done.stdout}{done.stderr}")
-        return done
+        return run_program(program, *words, code=code, cwd=cwd or cls.folder)
 
     @classmethod
     def pictures(cls, name):

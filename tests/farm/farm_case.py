@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "with_blender"))
-from harness import LIMIT_SECONDS, OK, SCENES, binary, blender, environment, run_blender  # noqa: E402
+from harness import LIMIT_SECONDS, OK, SCENES, binary, blender, environment, run_blender, run_program  # noqa: E402
 
 # The model gives a texel-sample 3 us and a pass 10 s: four passes, one for each task.
 MANY = ("--resolution", "64", "--samples", "512", "--bounces", "0", "--save-scene", "never")
@@ -67,11 +67,7 @@ class Farm(unittest.TestCase):
 
     @classmethod
     def run_it(cls, *words, code=OK, **more):
-        done = subprocess.run([binary(), *map(str, words)], env=environment(**more), stdin=subprocess.DEVNULL,
-                              capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
-        if done.returncode != code:
-            raise AssertionError(f"{words[0]} ended with {done.returncode}: {done.stderr}")
-        return done
+        return run_program(binary(), *words, code=code, **more)
 
     @classmethod
     def pictures(cls, folder):

@@ -48,3 +48,12 @@ def rnmbake(*arguments):
     """How it ended, with what it said as text."""
     return subprocess.run([binary(), *map(str, arguments)], env=environment(), stdin=subprocess.DEVNULL,
                           capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+
+
+def run_program(*words, code=OK, cwd=None, **more):
+    """How it ended; AssertionError with what it said where that is not with this exit code."""
+    done = subprocess.run([str(word) for word in words], env=environment(**more), cwd=cwd, stdin=subprocess.DEVNULL,
+                          capture_output=True, encoding="utf-8", timeout=LIMIT_SECONDS)
+    if done.returncode != code:
+        raise AssertionError(f"{' '.join(map(str, words[:2]))} ended with {done.returncode}: {done.stdout}{done.stderr}")
+    return done

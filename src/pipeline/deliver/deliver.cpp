@@ -116,8 +116,7 @@ class EngineDelivery {
   ordered_json write_page(const LightmapFolder& source, const std::vector<std::string>& layers,
                           std::size_t page) {
     ordered_json names = ordered_json::object();
-    for (Layer& layer : compose_page(source, layout(), page)) {
-      if (std::ranges::find(layers, layer.name) == layers.end()) continue;
+    for (Layer& layer : compose_page(source, layout(), page, layers).layers) {
       const std::string said = layer.name.empty() ? flat_pages : layer.name;
       const std::string file = fmt::format("page{}.{}.exr", page, said);
       layer.name.clear();
@@ -130,24 +129,17 @@ class EngineDelivery {
 
   /// Of the bakes themselves, for the .glb.
   void write_flat_pictures() {
-    std::vector<FloatImage> flat, coverage;
-    for (std::size_t page = 0; page < layout().pages.size(); ++page) {
-      for (Layer& layer : compose_page(folder_, layout(), page)) {
-        if (layer.name.empty()) flat.push_back(std::move(layer.pixels));
-        if (layer.name == "coverage") coverage.push_back(std::move(layer.pixels));
-      }
-      if (flat.size() != coverage.size())
-        fail(ExitCode::unsupported, "{} has no flat bake, which the .glb shows; add 'flat' to --bases",
-             lightmaps_.string());
-    }
-    std::vector<const FloatImage*> flats, coverages;
-    for (const FloatImage& image : flat) flats.push_back(&image);
-    for (const FloatImage& image : coverage) coverages.push_back(&image);
-    white_ = white_of(flats, coverages);
+    if (load_lightmap(folder_.places.front()).image.find("") == nullptr)
+      fail(ExitCode::unsupported, "{} has no flat bake, which the .glb shows; add 'flat' to --bases",
+           lightmaps_.string());
+    std::vector<Page> flat;
+    for (std::size_t page = 0; page < layout().pages.size(); ++page)
+      flat.push_back(compose_page(folder_, layout(), page, {""}));
+    white_ = white_of(flat);
     const fs::path folder = session_.new_folder("pictures");
     for (std::size_t page = 0; page < flat.size(); ++page) {
       pictures_.push_back(folder / fmt::format("page{}.png", page));
-      const PictureMetrics lost = write_flat_picture(pictures_.back(), flat[page], coverage[page], white_);
+      const PictureMetrics lost = write_flat_picture(pictures_.back(), flat[page], white_);
       pages_[page]["flat_picture"] = {{"white", white_},
                                       {"relative_bias", lost.relative_bias.value},
                                       {"relative_rmse", lost.relative_rmse.value},

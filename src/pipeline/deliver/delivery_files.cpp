@@ -22,13 +22,6 @@ std::vector<std::string> earlier_names(const fs::path& record) {
   return names;
 }
 
-bool put(const fs::path& file, std::string_view bytes) {
-  if (fs::is_regular_file(file) && fs::file_size(file) == bytes.size() && read_text(file) == bytes)
-    return false;
-  write_atomically(file, bytes);
-  return true;
-}
-
 }  // namespace
 
 fs::path DeliveryFiles::add(const std::string& name) {
@@ -43,10 +36,15 @@ void DeliveryFiles::add(const std::string& name, std::string_view text) {
 std::size_t DeliveryFiles::put_into(const fs::path& folder, nlohmann::ordered_json record) {
   const std::vector<std::string> earlier = earlier_names(folder / record_name);
   std::size_t written = 0;
-  for (const std::string& name : names_) written += put(folder / name, read_text(making_ / name)) ? 1 : 0;
+  for (const std::string& name : names_) {
+    const auto copy = [&](const fs::path& to) {
+      fs::copy_file(making_ / name, to, fs::copy_options::overwrite_existing);
+    };
+    written += write_atomically(folder / name, copy) ? 1 : 0;
+  }
   names_.emplace_back(record_name);
   record["files"] = names_;
-  written += put(folder / record_name, record.dump(1) + "\n") ? 1 : 0;
+  written += write_atomically(folder / record_name, record.dump(1) + "\n") ? 1 : 0;
   for (const std::string& name : earlier) {
     const auto left = file_inside(folder, name);
     std::error_code gone;

@@ -1,6 +1,8 @@
 #include "pipeline/deliver/flat_picture.h"
 
 #include "image/display_png.h"
+#include "image/layered_exr.h"
+#include "lightmap/fill.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +10,13 @@
 
 namespace rnmbake {
 
-float white_of(const std::vector<const FloatImage*>& flat, const std::vector<const FloatImage*>& coverage) {
+float white_of(const std::vector<Page>& pages) {
   std::vector<float> values;
-  for (std::size_t page = 0; page < flat.size(); ++page) {
-    for (std::size_t i = 0; i < flat[page]->texels(); ++i) {
-      if (coverage[page]->data()[i] <= 0.5F) continue;
-      for (std::size_t c = 0; c < 3; ++c) values.push_back(flat[page]->data()[3 * i + c]);
+  for (const Page& page : pages) {
+    const std::vector<float>& flat = page.layers.front().pixels.data();
+    const TexelMask covered = covered_mask(page.coverage);
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      for (std::size_t c = 0; c < 3 && covered[i] != 0; ++c) values.push_back(flat[3 * i + c]);
     }
   }
   if (values.empty()) return 1;
@@ -24,13 +27,13 @@ float white_of(const std::vector<const FloatImage*>& flat, const std::vector<con
   return std::max(most <= 2 * nearly_most ? most : nearly_most, 1e-6F);
 }
 
-PictureMetrics write_flat_picture(const std::filesystem::path& file, const FloatImage& flat,
-                                  const FloatImage& coverage, float white) {
+PictureMetrics write_flat_picture(const std::filesystem::path& file, const Page& page, float white) {
+  const FloatImage& flat = page.layers.front().pixels;
   write_display_png(file, flat, -std::log2(white));
   FloatImage seen = read_image(file).layers.front().pixels;
   for (float& value : seen.data()) value = white * srgb_decode(value);
   PictureComparison comparison;
-  comparison.add({&seen}, {&flat}, {{&coverage}});
+  comparison.add({&seen}, {&flat}, {{&page.coverage}});
   return comparison.metrics();
 }
 

@@ -36,8 +36,7 @@ GlbResult write_glb(BlenderSession& session, const PageLayout& layout,
                          {"pages", std::move(pictures)},
                          {"intensity", request.intensity},
                          {"record", request.record},
-                         {"lights", request.lights},
-                         {"cameras", true}});
+                         {"lights", request.lights}});
   launch.save_as = file;
   const json answer = session.run(std::move(launch));
   GlbResult result;

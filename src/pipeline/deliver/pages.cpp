@@ -37,19 +37,6 @@ std::size_t crop(const FloatImage& coverage, int padding, PagedMap& map) {
   return covered;
 }
 
-bool is_colour(const Layer& layer) {
-  return layer.channels == std::vector<std::string>{"R", "G", "B"};
-}
-
-/// The layers of a page, empty, as a map has them.
-std::vector<Layer> empty_page(const LoadedLightmap& first, RectSize size) {
-  std::vector<Layer> layers;
-  for (const Layer& layer : first.image.layers)
-    if (is_colour(layer)) layers.push_back({layer.name, layer.channels, {size.width, size.height, 3}});
-  layers.push_back({"coverage", {""}, {size.width, size.height, 1}});
-  return layers;
-}
-
 /// Covered texels alone: what was dilated within the map belongs to another layout.
 void copy_covered(const FloatImage& from, const FloatImage& coverage, const PagedMap& map, FloatImage& page) {
   for (int y = std::max(map.top, 0); y < std::min(map.top + map.box.height, from.height()); ++y) {
@@ -107,26 +94,28 @@ PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits)
   return layout;
 }
 
-std::vector<Layer> compose_page(const LightmapFolder& folder, const PageLayout& layout, std::size_t page) {
-  std::vector<Layer> layers;
+Page compose_page(const LightmapFolder& folder, const PageLayout& layout, std::size_t page,
+                  const std::vector<std::string>& layers) {
+  const RectSize size = layout.pages[page];
+  Page composed{{}, {size.width, size.height, 1}};
+  for (const std::string& name : layers)
+    composed.layers.push_back({name, {"R", "G", "B"}, {size.width, size.height, 3}});
   for (const PagedMap& map : layout.maps) {
     if (map.page != page) continue;
     const LoadedLightmap loaded = load_lightmap(*folder.find(map.key));
-    if (layers.empty()) layers = empty_page(loaded, layout.pages[page]);
     const FloatImage& coverage = coverage_of(loaded);
-    for (Layer& layer : layers) {
+    copy_covered(coverage, coverage, map, composed.coverage);
+    for (Layer& layer : composed.layers) {
       const Layer* own = loaded.image.find(layer.name);
-      if (own == nullptr)
+      if (own == nullptr || own->channels != layer.channels)
         fail(ExitCode::invalid_input,
              "{} has no layer '{}', which other maps have; bake all with the same settings", loaded.file,
              layer.name);
       copy_covered(own->pixels, coverage, map, layer.pixels);
     }
   }
-  const FloatImage coverage = layers.back().pixels;
-  for (Layer& layer : layers)
-    if (is_colour(layer)) dilate(layer.pixels, coverage, layout.limits.padding);
-  return layers;
+  for (Layer& layer : composed.layers) dilate(layer.pixels, composed.coverage, layout.limits.padding);
+  return composed;
 }
 
 }  // namespace rnmbake

@@ -45,9 +45,14 @@ struct PageLayout {
 /// Throws Error(unsupported) naming an object that is larger than a page, else as load_lightmap().
 [[nodiscard]] PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits);
 
-/// One page of a folder's maps: each layer of colours that all have, in their order, and "coverage". Texels
-/// around the covered ones are filled from these. Throws Error(invalid_input) where the maps' layers differ.
-[[nodiscard]] std::vector<Layer> compose_page(const LightmapFolder& folder, const PageLayout& layout,
-                                              std::size_t page);
+/// One page of a folder's maps.
+struct Page {
+  std::vector<Layer> layers;  // RGB; texels around the covered ones are filled from these
+  FloatImage coverage;
+};
+
+/// The layers of these names, in their order. Throws Error(invalid_input) where a map lacks one.
+[[nodiscard]] Page compose_page(const LightmapFolder& folder, const PageLayout& layout, std::size_t page,
+                                const std::vector<std::string>& layers);
 
 }  // namespace rnmbake

@@ -64,13 +64,6 @@ bool is_as_it_was(const json& file) {
   return look_at("", file.at("path").get<std::string>()).hash == file.at("hash").get<std::string>();
 }
 
-json to_json(const SceneDigest& digest) {
-  json entries = json::array();
-  for (const DigestEntry& entry : digest.entries)
-    entries.push_back({{"what", entry.what}, {"hash", entry.hash}, {"uses", entry.uses}});
-  return entries;
-}
-
 /// An entry's parts; nothing where it is none.
 std::optional<std::array<std::string_view, 4>> parts_of(std::string_view bytes) {
   ByteReader in(bytes);

@@ -48,8 +48,8 @@ TEST_F(Pages, HoldEveryCoveredTexelWhereTheUvsLead) {
   const PageLayout layout = lay_out_pages(folder, {64, 2});
   ASSERT_EQ(layout.pages.size(), 1U);
   EXPECT_EQ(layout.covered, std::size_t(15 * 14 + 7 * 22 + 19 * 8));
-  const std::vector<Layer> layers = compose_page(folder, layout, 0);
-  ASSERT_EQ(layers.size(), 2U);
+  const Page composed = compose_page(folder, layout, 0, {""});
+  ASSERT_EQ(composed.layers.size(), 1U);
   const RectSize page = layout.pages[0];
   for (const PagedMap& map : layout.maps) {
     const Imath::V2d scale = map.scale(page), offset = map.offset(page);
@@ -58,8 +58,8 @@ TEST_F(Pages, HoldEveryCoveredTexelWhereTheUvsLead) {
         const double u = (x + 0.5) / map.map.width * scale.x + offset.x;
         const double v = (y + 0.5) / map.map.height * scale.y + offset.y;
         const int px = int(u * page.width), py = int(v * page.height);
-        EXPECT_EQ(vec3_at(layers[0].pixels, px, py), Vec3(float(x), float(y), float(map.key[0])));
-        EXPECT_EQ(layers[1].pixels.texel(px, py)[0], 1);
+        EXPECT_EQ(vec3_at(composed.layers[0].pixels, px, py), Vec3(float(x), float(y), float(map.key[0])));
+        EXPECT_EQ(composed.coverage.texel(px, py)[0], 1);
       }
     }
   }
@@ -68,11 +68,12 @@ TEST_F(Pages, HoldEveryCoveredTexelWhereTheUvsLead) {
 TEST_F(Pages, AreFilledAroundEachMap) {
   const LightmapFolder folder = maps();
   const PageLayout layout = lay_out_pages(folder, {64, 2});
-  const std::vector<Layer> layers = compose_page(folder, layout, 0);
+  const Page composed = compose_page(folder, layout, 0, {""});
   for (const PagedMap& map : layout.maps) {
     for (int x = 0; x < map.box.width; ++x) {
       for (const int y : {0, 1, map.box.height - 2, map.box.height - 1})
-        EXPECT_EQ(layers[0].pixels.texel(map.x + x, map.y + y)[2], float(map.key[0])) << map.key << x << y;
+        EXPECT_EQ(composed.layers[0].pixels.texel(map.x + x, map.y + y)[2], float(map.key[0]))
+            << map.key << x << y;
     }
   }
 }

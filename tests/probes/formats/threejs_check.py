@@ -5,23 +5,16 @@
 RNMBAKE_NODE_MODULES names a node_modules folder that holds three; without it npm fetches three into a temporary folder.
 Left out, with a word, where there is no Chromium, npm or network.
 """
-import functools
-import http.server
-import os
 from pathlib import Path
-import shutil
-import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "report")]
 import browser  # noqa: E402
 import known_light as known  # noqa: E402
-
-THREE = "three@0.187.0"
+import served  # noqa: E402
 
 PAGE = """<!doctype html><meta charset=utf-8><script type=importmap>
 {"imports": {"three": "./node_modules/three/build/three.module.js", "three/addons/": "./node_modules/three/examples/jsm/"}}
@@ -60,33 +53,12 @@ document.documentElement.dataset.ready = 'yes';
 </script>"""
 
 
-def three_in(folder):
-    """A node_modules folder with three, or SkipTest."""
-    named = os.environ.get("RNMBAKE_NODE_MODULES")
-    if named and (Path(named) / "three").is_dir():
-        return Path(named)
-    if not shutil.which("npm"):
-        print("SKIPPED: no npm to fetch three with; install the package npm", file=sys.stderr)
-        raise unittest.SkipTest("SKIPPED: no npm")
-    # Two attempts of ten seconds for each of two files at most.
-    outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1",
-                              "--fetch-timeout=10000", "--fetch-retry-maxtimeout=1000", THREE],
-                             cwd=folder, timeout=120, capture_output=True, text=True)
-    if outcome.returncode:
-        print(f"SKIPPED: npm cannot fetch {THREE}: {outcome.stderr.strip().splitlines()[-1:]}", file=sys.stderr)
-        raise unittest.SkipTest("SKIPPED: no network for npm")
-    return folder / "node_modules"
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
 setUpModule = browser.require
 
 
-class Page(unittest.TestCase):
+class Page(served.Served):
+    HARMLESS = served.Served.HARMLESS + ("404",)  # the page asks for a file that a three.js may lack
+
     @classmethod
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory(prefix="rnmbake-threejs-")
@@ -95,26 +67,8 @@ class Page(unittest.TestCase):
         cls.folder = root / "page"
         known.write(cls.folder, "threejs", "all")
         (cls.folder / "seen.html").write_text(PAGE, encoding="utf-8")
-        (cls.folder / "node_modules").symlink_to(three_in(root))
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(cls.folder)))
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        cls.addClassCleanup(server.server_close)
-        cls.addClassCleanup(server.shutdown)
-        cls.address = f"http://127.0.0.1:{server.server_port}/"
-        cls.browser = browser.Browser(512, 384)
-        cls.addClassCleanup(cls.browser.close)
-
-    def open(self, page):
-        self.browser.problems.clear()
-        self.browser.call("Page.navigate", url=self.address + page)
-        self.browser.wait("document.documentElement?.dataset.ready === 'yes'")
-
-    def problems(self):
-        """But for requests to our own server (it answers 404 where the page asks for a file that a three.js may lack), and what
-        software rendering says of itself."""
-        return [one for one in self.browser.problems
-                if not one.startswith(("request: " + self.address, "request: blob:")) and "GPU stall" not in one
-                and "software WebGL" not in one and "404" not in one]
+        (cls.folder / "node_modules").symlink_to(served.node_modules(root, served.THREE))
+        cls.serve(cls.folder, 512, 384)
 
     def seen(self, name, way, place, normal, reach=.01):
         return self.browser.run(f"seen('{name}', '{way}', {list(known.y_up(place))}, {list(known.y_up(normal))}, {reach})")

@@ -7,7 +7,6 @@ RNMBAKE_NODE_MODULES names a node_modules folder that holds three and gltf-valid
 them is left out, with a word, where there is no Chromium, npm or network.
 """
 import functools
-import http.server
 import json
 import os
 from pathlib import Path
@@ -16,7 +15,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 
 HERE = Path(__file__).resolve().parent
@@ -24,34 +22,15 @@ ROOT = HERE.parents[2]
 sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
 import browser  # noqa: E402
 from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender  # noqa: E402
+import served  # noqa: E402
 
-PACKAGES = ("three@0.187.0", "gltf-validator@2.0.0-dev.3.10")
+PACKAGES = (served.THREE, "gltf-validator@2.0.0-dev.3.10")
 PANELS = ROOT / "scenes" / "built" / "panels.blend"
 QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
 WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
 BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
 # UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
 KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
-def node_modules(folder):
-    """A node_modules folder with the packages, or SkipTest."""
-    named = os.environ.get("RNMBAKE_NODE_MODULES")
-    if named:
-        return Path(named)
-    if not shutil.which("npm"):
-        raise unittest.SkipTest("SKIPPED: no npm to fetch three and gltf-validator with; install the package npm")
-    outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1",
-                              "--fetch-timeout=10000", "--fetch-retry-maxtimeout=1000", *PACKAGES],
-                             cwd=folder, timeout=120, capture_output=True, text=True)
-    if outcome.returncode:
-        raise unittest.SkipTest(f"SKIPPED: npm cannot fetch {PACKAGES}: {outcome.stderr.strip().splitlines()[-1:]}")
-    return folder / "node_modules"
 
 
 def json_of(glb):
@@ -89,7 +68,7 @@ def deliver(engine, source, out, *flags):
 
 class Glb(Delivered):
     def test_validator_has_nothing_to_say(self):
-        modules = node_modules(self.top)
+        modules = served.node_modules(self.top, *PACKAGES)
         script = ("const v=require('gltf-validator'),fs=require('fs');v.validateBytes(new Uint8Array(fs.readFileSync("
                   "process.argv[1])),{maxIssues:0}).then(r=>console.log(JSON.stringify(r.issues)))")
         done = subprocess.run(["node", "-e", script, str(self.out / "scene.glb")], capture_output=True, text=True, check=True,
@@ -172,30 +151,14 @@ class Refusals(Delivered):
         self.refused(rnmbake("deliver", self.scene, "--engine", "gltf"), USAGE, "-o DIR")
 
 
-class ThreeJs(Delivered):
+class ThreeJs(Delivered, served.Served):
     @classmethod
     def setUpClass(cls):
         browser.require()
         super().setUpClass()
-        (cls.out / "node_modules").symlink_to(node_modules(cls.top))
+        (cls.out / "node_modules").symlink_to(served.node_modules(cls.top, *PACKAGES))
         shutil.copy(HERE / "view.html", cls.out)
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(cls.out)))
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        cls.addClassCleanup(server.server_close)
-        cls.addClassCleanup(server.shutdown)
-        cls.address = f"http://127.0.0.1:{server.server_port}/"
-        cls.browser = browser.Browser(480, 270)
-        cls.addClassCleanup(cls.browser.close)
-
-    def open(self, page):
-        self.browser.problems.clear()
-        self.browser.call("Page.navigate", url=self.address + page)
-        self.browser.wait("document.documentElement?.dataset.ready === 'yes'")
-
-    def problems(self):
-        return [one for one in self.browser.problems
-                if not one.startswith(("request: " + self.address, "request: blob:")) and "GPU stall" not in one
-                and "software WebGL" not in one]
+        cls.serve(cls.out, 480, 270)
 
     def rendered(self, decode):
         """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
