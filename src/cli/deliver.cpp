@@ -38,8 +38,19 @@ struct DeliverFlags {
   DeliverOptions options;
 };
 
-DeliveryEngine engine_of(const std::string& name) {
-  return name == "threejs" ? DeliveryEngine::threejs : DeliveryEngine::gltf;
+/// Of every engine, as CLI11 checks it.
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const EngineTarget* target : engine_targets()) names.emplace_back(target->name());
+  return names;
+}
+
+/// "gltf: flat, threejs: rnm-vrad".
+std::string own_encodings() {
+  std::vector<std::string> said;
+  for (const EngineTarget* target : engine_targets())
+    said.push_back(fmt::format("{}: {}", target->name(), target->encodings().front()));
+  return fmt::format("{}", fmt::join(said, ", "));
 }
 
 void say_delivered(const DeliverySummary& summary, const fs::path& folder) {
@@ -75,7 +86,7 @@ Source bake_first(ResolvedConfig config, const DeliverFlags& flags, RunReport& m
 
 int run_deliver(const SettingsFlags& settings, const DeliverFlags& flags, RunReport& made) {
   DeliverOptions options = flags.options;
-  options.engine = engine_of(flags.engine);
+  options.engine = &engine_target(flags.engine);
   const fs::path given = settings.scene_argument();
   const bool is_baked = fs::is_directory(given);
   auto config = is_baked ? settings.resolve_scene(scene_to_deliver(given)) : settings.resolve();
@@ -105,18 +116,18 @@ std::function<int()> add_deliver_command(CLI::App& app) {
   auto flags = std::make_shared<DeliverFlags>();
   command->add_option("--engine", flags->engine, "for whom")
       ->required()
-      ->check(CLI::IsMember({"gltf", "threejs"}).description(""))
-      ->type_name("gltf|threejs")
+      ->check(CLI::IsMember(engine_names()).description(""))
+      ->type_name(fmt::format("{}", fmt::join(engine_names(), "|")))
       ->group("Delivery");
   command->add_option("--bake-engine", flags->bake_engine, "who bakes: `rnmbake bake --engine` [cycles]")
       ->check(CLI::IsMember({"cycles", "embree"}).description(""))
       ->type_name("cycles|embree")
       ->group("Delivery");
   command
-      ->add_option("--encoding", flags->options.codec.name,
-                   "of the directional pages [gltf: flat, threejs: rnm-vrad]")
-      ->check(CLI::IsMember(encodings_for(DeliveryEngine::gltf)).description(""))
-      ->type_name(fmt::format("{}", fmt::join(encodings_for(DeliveryEngine::gltf), "|")))
+      ->add_option("--encoding", flags->options.encoding,
+                   fmt::format("of the directional pages [{}]", own_encodings()))
+      ->check(CLI::IsMember(delivered_encodings()).description(""))
+      ->type_name(fmt::format("{}", fmt::join(delivered_encodings(), "|")))
       ->group("Delivery");
   command->add_option("--pages", flags->options.pages.side, "largest side of the pages, texels [4096]")
       ->check(CLI::Range(16, 16384).description(""))
@@ -139,6 +150,8 @@ std::function<int()> add_deliver_command(CLI::App& app) {
   return [settings, flags, run] {
     settings->want(
         {find_setting("save_scene"), std::string("always"), SettingSource::flag, "rnmbake deliver"});
+    if (engine_target(flags->engine).in_world())
+      settings->want({find_setting("frames"), true, SettingSource::flag, "rnmbake deliver"});
     if (!flags->bake_engine.empty())
       settings->want({find_setting("engine"), flags->bake_engine, SettingSource::flag, "flag --bake-engine"});
     return run->run([&](RunReport& made) { return run_deliver(*settings, *flags, made); });

@@ -9,12 +9,10 @@
 #include "pipeline/deliver/delivery_files.h"
 #include "pipeline/deliver/flat_picture.h"
 #include "pipeline/deliver/glb.h"
-#include "pipeline/deliver/web_files.h"
 #include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/run/hold_folder.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -25,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr const char* flat_pages = "flat";
 
 ordered_json pair_of(const Imath::V2d& pair) {
   return {pair.x, pair.y};
@@ -63,7 +59,8 @@ class EngineDelivery {
       : session_(session),
         options_(options),
         progress_(progress),
-        encoding_(options.codec.name.empty() ? encodings_for(options.engine).front() : options.codec.name),
+        target_(*options.engine),
+        encoding_(options.encoding.empty() ? target_.encodings().front() : options.encoding),
         lightmaps_(lightmaps),
         folder_(open_lightmaps(lightmaps)),
         manifest_(read_manifest(lightmaps / "manifest.json")),
@@ -77,8 +74,7 @@ class EngineDelivery {
     write_encoded_pages();
     write_flat_pictures();
     write_scene();
-    if (options_.engine == DeliveryEngine::threejs)
-      for (const auto& [name, text] : web_files()) files_.add(name, text);
+    target_.add_files(files_, record_);
     summary_.written = files_.put_into(session_.settings().output.dir, std::move(record_));
     summary_.files = files_.names();
     return std::move(summary_);
@@ -91,40 +87,33 @@ class EngineDelivery {
     if (progress_) progress_(share, what);
   }
 
-  /// An EXR for each layer of each page, of the encoding.
   void write_encoded_pages() {
     LightmapFolder source = folder_;
     std::vector<std::string> layers{""};
-    if (encoding_ != flat_pages) {
-      const fs::path converted = session_.new_folder("converted");
-      CodecOptions codec = options_.codec;
-      codec.name = encoding_;
-      (void)convert_lightmaps(lightmaps_, {.codec = codec, .depth = Depth::half}, converted,
-                              [&](double share, const std::string& key) { say(0.5 * share, key); });
-      source = open_lightmaps(converted);
+    if (encoding_ != EngineTarget::flat) {
+      source = convert();
       const LoadedLightmap first = load_lightmap(source.places.front());
-      layers = make_codec(codec, {first.file, first.metadata.bases})->layers();
+      layers = make_codec(codec_, {first.file, first.metadata.bases})->layers();
       green_ = first.metadata.green;
     }
     for (std::size_t page = 0; page < layout().pages.size(); ++page) {
       say(0.5 + 0.2 * double(page) / double(layout().pages.size()), fmt::format("page {}", page));
-      pages_.push_back(write_page(source, layers, page));
+      const RectSize size = layout().pages[page];
+      pages_.push_back(
+          {{"width", size.width},
+           {"height", size.height},
+           {"layers", target_.write_page(files_, page, compose_page(source, layout(), page, layers))}});
     }
-    if (options_.engine == DeliveryEngine::threejs) decoder_ = web_decoder(encoding_, layers);
   }
 
-  ordered_json write_page(const LightmapFolder& source, const std::vector<std::string>& layers,
-                          std::size_t page) {
-    ordered_json names = ordered_json::object();
-    for (Layer& layer : compose_page(source, layout(), page, layers).layers) {
-      const std::string said = layer.name.empty() ? flat_pages : layer.name;
-      const std::string file = fmt::format("page{}.{}.exr", page, said);
-      layer.name.clear();
-      write_exr(files_.add(file), {{std::move(layer)}, {}}, Depth::half);
-      names[said] = file;
-    }
-    const RectSize size = layout().pages[page];
-    return {{"width", size.width}, {"height", size.height}, {"layers", std::move(names)}};
+  /// All lightmaps, in the encoding.
+  LightmapFolder convert() {
+    codec_.name = encoding_;
+    target_.pack(codec_);
+    const fs::path folder = session_.new_folder("converted");
+    (void)convert_lightmaps(lightmaps_, {.codec = codec_, .world = target_.in_world(), .depth = Depth::half},
+                            folder, [&](double share, const std::string& key) { say(0.5 * share, key); });
+    return open_lightmaps(folder);
   }
 
   /// Of the bakes themselves, for the .glb.
@@ -154,7 +143,7 @@ class EngineDelivery {
     for (const PagedMap& map : layout().maps) objects.push_back(saved.at(map.key));
     record_ = {{"schema_version", 1},      {"generator", fmt::format("rnmbake {}", version)},
                {"scene", "scene.glb"},     {"encoding", encoding_},
-               {"units", "E/pi"},          {"space", "tangent"},
+               {"units", "E/pi"},          {"space", target_.in_world() ? "world" : "tangent"},
                {"green", name_of(green_)}, {"texcoord", 1},
                {"pages", pages_}};
     const GlbRequest request{pictures_, pi * white_, record_, options_.lights};
@@ -175,16 +164,17 @@ class EngineDelivery {
     }
     record_["objects"] = std::move(list);
     record_["notes"] = glb.notes;
-    if (!decoder_.is_null()) record_["decoder"] = decoder_;
   }
 
   BlenderSession& session_;
   const DeliverOptions& options_;
   const std::function<void(double, std::string)>& progress_;
+  const EngineTarget& target_;
   std::string encoding_;
+  CodecOptions codec_;
   fs::path lightmaps_;
   LightmapFolder folder_;
-  nlohmann::json manifest_, decoder_;
+  nlohmann::json manifest_;
   DeliveryFiles files_;
   DeliverySummary summary_;
   ordered_json pages_ = ordered_json::array(), record_;
@@ -194,15 +184,6 @@ class EngineDelivery {
 };
 
 }  // namespace
-
-const std::vector<std::string>& encodings_for(DeliveryEngine engine) {
-  static const std::vector<std::string> with_flat = [] {
-    std::vector<std::string> all{flat_pages};
-    std::ranges::copy(web_encodings(), std::back_inserter(all));
-    return all;
-  }();
-  return engine == DeliveryEngine::gltf ? with_flat : web_encodings();
-}
 
 fs::path scene_to_deliver(const fs::path& lightmaps) {
   const fs::path file = lightmaps / "manifest.json";
@@ -218,10 +199,10 @@ fs::path scene_to_deliver(const fs::path& lightmaps) {
 
 DeliverySummary deliver(BlenderSession& session, const fs::path& lightmaps, const DeliverOptions& options,
                         const std::function<void(double, std::string)>& progress) {
-  const std::vector<std::string>& known = encodings_for(options.engine);
-  if (!options.codec.name.empty() && std::ranges::find(known, options.codec.name) == known.end())
-    fail(ExitCode::unsupported, "there is no decoder of '{}' for this engine; choose of {}",
-         options.codec.name, fmt::join(known, ", "));
+  const std::vector<std::string>& known = options.engine->encodings();
+  if (!options.encoding.empty() && std::ranges::find(known, options.encoding) == known.end())
+    fail(ExitCode::unsupported, "there is no decoder of '{}' for {}; choose of {}", options.encoding,
+         options.engine->name(), fmt::join(known, ", "));
   const FolderLock lock = hold_folder(session.settings().output.dir, session.settings().run.lock_wait);
   return EngineDelivery(session, lightmaps, options, progress).make();
 }

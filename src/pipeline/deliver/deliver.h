@@ -2,10 +2,10 @@
 #pragma once
 
 #include "blender/blender_session.h"
-#include "encoding/codec.h"
+#include "pipeline/deliver/engines/engine_target.h"
 #include "pipeline/deliver/pages.h"
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,19 +13,12 @@
 
 namespace rnmbake {
 
-/// gltf: a .glb with the flat light as MOZ_lightmap, and the pages beside it. threejs: the same, a module
-/// that decodes the pages, and a page to look at.
-enum class DeliveryEngine : std::uint8_t { gltf, threejs };
-
 struct DeliverOptions {
-  DeliveryEngine engine = DeliveryEngine::gltf;
-  CodecOptions codec;  // of the pages; "": the engine's own choice
+  const EngineTarget* engine = nullptr;
+  std::string encoding;  // of the pages; "": the engine's own choice
   PageLimits pages;
   bool lights = false;  // the scene's lamps go into the .glb, too
 };
-
-/// Encodings that the engine's decoder knows, the one that is chosen where none is named first.
-[[nodiscard]] const std::vector<std::string>& encodings_for(DeliveryEngine engine);
 
 struct DeliverySummary {
   std::vector<std::string> files;  // names in the folder, lightmaps.json last

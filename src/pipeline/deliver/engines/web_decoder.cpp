@@ -1,14 +1,12 @@
-#include "pipeline/deliver/web_files.h"
+#include "pipeline/deliver/engines/web_decoder.h"
 
 #include "shaders/engines.h"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace rnmbake {
-
-/// The files of web/threejs/.
-const std::vector<std::pair<const char*, const char*>>& embedded_web_files();
 
 namespace {
 
@@ -37,15 +35,14 @@ const std::vector<std::string>& web_encodings() {
   return names;
 }
 
-nlohmann::json web_decoder(const std::string& encoding, const std::vector<std::string>& layers) {
-  const auto* const found = std::ranges::find(decoders, encoding, &WebDecoder::encoding);
-  return {{"layers", layers},
+nlohmann::json web_decoder(const nlohmann::ordered_json& record) {
+  const auto* const found =
+      std::ranges::find(decoders, record.at("encoding").get<std::string>(), &WebDecoder::encoding);
+  nlohmann::json layers = nlohmann::json::array();
+  for (const auto& [layer, file] : record.at("pages").at(0).at("layers").items()) layers.push_back(layer);
+  return {{"layers", std::move(layers)},
           {"function", found->function},
           {"text", shader_text(engine_named("glsl"), {found->shader})}};
-}
-
-const std::vector<std::pair<const char*, const char*>>& web_files() {
-  return embedded_web_files();
 }
 
 }  // namespace rnmbake

@@ -1,0 +1,59 @@
+// pipeline/deliver/engines/engine_target.h - what is particular to an engine: the encodings that it can show,
+// how the files of a page look, and what goes with them.
+#pragma once
+
+#include "encoding/codec.h"
+#include "pipeline/deliver/delivery_files.h"
+#include "pipeline/deliver/pages.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rnmbake {
+
+class EngineTarget {
+ public:
+  static constexpr const char* flat = "flat";  // the encoding without directions, and its only layer
+
+  EngineTarget() = default;
+  EngineTarget(const EngineTarget&) = delete;
+  EngineTarget& operator=(const EngineTarget&) = delete;
+  virtual ~EngineTarget() = default;
+
+  /// As users type it: --engine threejs.
+  [[nodiscard]] virtual const char* name() const = 0;
+
+  /// Those that the engine has a decoder for; the first is taken where none is asked for.
+  [[nodiscard]] virtual const std::vector<std::string>& encodings() const = 0;
+
+  /// How one of these is packed. `name` is filled in already.
+  virtual void pack(CodecOptions& /*codec*/) const {}
+
+  /// Layers along Blender's world axes rather than in tangent space; bakes then need --frames.
+  [[nodiscard]] virtual bool in_world() const { return false; }
+
+  /// Writes one page, whose layers are the encoding's in their order, and returns what the record says of
+  /// them: the file of each layer, by its name. Unless an engine wants something else: an EXR of half floats
+  /// for each, pageN.LAYER.exr.
+  [[nodiscard]] virtual nlohmann::ordered_json write_page(DeliveryFiles& files, std::size_t number,
+                                                          Page page) const;
+
+  /// Adds loaders, shaders and whatever else the engine reads, and to the record (docs/deliver.md), which is
+  /// complete but for the names of files.
+  virtual void add_files(DeliveryFiles& /*files*/, nlohmann::ordered_json& /*record*/) const {}
+};
+
+/// Every engine, in the order of --help.
+[[nodiscard]] const std::vector<const EngineTarget*>& engine_targets();
+
+/// Throws Error(usage) for a name that is none.
+[[nodiscard]] const EngineTarget& engine_target(std::string_view name);
+
+/// Encodings that any of them has a decoder for.
+[[nodiscard]] std::vector<std::string> delivered_encodings();
+
+}  // namespace rnmbake
