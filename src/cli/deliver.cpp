@@ -9,6 +9,7 @@
 #include "cli/flags/settings_flags.h"
 #include "cli/run_report.h"
 #include "pipeline/deliver/deliver.h"
+#include "pipeline/deliver/engines/engine_targets.h"
 #include "process/stop.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "blender/blender_session.h"
-#include "pipeline/deliver/engines/engine_target.h"
+#include "pipeline/deliver/engine_target.h"
 #include "pipeline/deliver/pages.h"
 
 #include <cstddef>

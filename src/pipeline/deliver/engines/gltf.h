@@ -1,7 +1,7 @@
 // pipeline/deliver/engines/gltf.h - the .glb and its pages, for whoever reads them.
 #pragma once
 
-#include "pipeline/deliver/engines/engine_target.h"
+#include "pipeline/deliver/engine_target.h"
 
 namespace rnmbake {
 

@@ -2,7 +2,7 @@
 // them in the record.
 #pragma once
 
-#include "pipeline/deliver/engines/engine_target.h"
+#include "pipeline/deliver/engine_target.h"
 
 namespace rnmbake {
 

@@ -1,4 +1,4 @@
-// pipeline/deliver/engines/engine_target.h - what is particular to an engine: the encodings that it can show,
+// pipeline/deliver/engine_target.h - what is particular to an engine: the encodings that it can show,
 // how the files of a page look, and what goes with them.
 #pragma once
 
@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -46,14 +45,5 @@ class EngineTarget {
   /// complete but for the names of files.
   virtual void add_files(DeliveryFiles& /*files*/, nlohmann::ordered_json& /*record*/) const {}
 };
-
-/// Every engine, in the order of --help.
-[[nodiscard]] const std::vector<const EngineTarget*>& engine_targets();
-
-/// Throws Error(usage) for a name that is none.
-[[nodiscard]] const EngineTarget& engine_target(std::string_view name);
-
-/// Encodings that any of them has a decoder for.
-[[nodiscard]] std::vector<std::string> delivered_encodings();
 
 }  // namespace rnmbake

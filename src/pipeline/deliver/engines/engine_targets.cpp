@@ -1,26 +1,12 @@
-#include "pipeline/deliver/engines/engine_target.h"
+#include "pipeline/deliver/engines/engine_targets.h"
 
 #include "base/error.h"
-#include "image/layered_exr.h"
 #include "pipeline/deliver/engines/gltf.h"
 #include "pipeline/deliver/engines/threejs.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace rnmbake {
-
-nlohmann::ordered_json EngineTarget::write_page(DeliveryFiles& files, std::size_t number, Page page) const {
-  nlohmann::ordered_json names = nlohmann::ordered_json::object();
-  for (Layer& layer : page.layers) {
-    const std::string said = layer.name.empty() ? flat : layer.name;
-    const std::string file = fmt::format("page{}.{}.exr", number, said);
-    layer.name.clear();
-    write_exr(files.add(file), {{std::move(layer)}, {}}, Depth::half);
-    names[said] = file;
-  }
-  return names;
-}
 
 const std::vector<const EngineTarget*>& engine_targets() {
   static const Gltf gltf;
