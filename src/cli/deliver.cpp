@@ -12,6 +12,7 @@
 #include "pipeline/deliver/engines/engine_targets.h"
 #include "process/stop.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -34,7 +35,7 @@ constexpr const char* own_maps = ".lightmaps";  // in the output folder; engines
 constexpr std::array without_flags{"engine"};  // that which bakes: --bake-engine
 
 struct DeliverFlags {
-  std::string engine, bake_engine;
+  std::string engine, bake_engine, format;
   fs::path lightmaps;
   DeliverOptions options;
 };
@@ -46,6 +47,12 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const PageFormat format : page_formats()) names.emplace_back(name_of(format));
+  return names;
+}
+
 /// "gltf: flat, threejs: rnm-vrad".
 std::string own_encodings() {
   std::vector<std::string> said;
@@ -54,10 +61,21 @@ std::string own_encodings() {
   return fmt::format("{}", fmt::join(said, ", "));
 }
 
+/// The layer that loses most.
+void say_loss(const DeliverySummary& summary) {
+  if (summary.losses.empty()) return;
+  const PageLoss& worst = *std::ranges::max_element(
+      summary.losses, {}, [](const PageLoss& loss) { return loss.lost.relative_rmse.value; });
+  log::info("pages as {}: relative_rmse {:.2g}, relative_bias {:.1g}, max {:.2g} (page {}, {})",
+            name_of(summary.form.format), worst.lost.relative_rmse.value, worst.lost.relative_bias.value,
+            worst.lost.max, worst.page, worst.layer);
+}
+
 void say_delivered(const DeliverySummary& summary, const fs::path& folder) {
   for (const std::string& note : summary.notes) log::warn("{}", note);
   log::info("{} on {}, {:.2f} texels for each covered one", counted(summary.layout.maps.size(), "lightmap"),
             counted(summary.layout.pages.size(), "page"), summary.layout.texels_for_each_covered());
+  say_loss(summary);
   log::info("{} in {}, {} of them written anew", counted(summary.files.size(), "file"), folder.string(),
             summary.written);
 }
@@ -88,6 +106,8 @@ Source bake_first(ResolvedConfig config, const DeliverFlags& flags, RunReport& m
 int run_deliver(const SettingsFlags& settings, const DeliverFlags& flags, RunReport& made) {
   DeliverOptions options = flags.options;
   options.engine = &engine_target(flags.engine);
+  if (!flags.format.empty()) options.format = page_format(flags.format);
+  check(options);
   const fs::path given = settings.scene_argument();
   const bool is_baked = fs::is_directory(given);
   auto config = is_baked ? settings.resolve_scene(scene_to_deliver(given)) : settings.resolve();
@@ -140,6 +160,17 @@ std::function<int()> add_deliver_command(CLI::App& app) {
       ->check(CLI::Range(1, 64).description(""))
       ->type_name("TEXELS")
       ->group("Delivery");
+  command->add_option("--page-format", flags->format, "of the pages [exr]")
+      ->check(CLI::IsMember(format_names()).description(""))
+      ->type_name(fmt::format("{}", fmt::join(format_names(), "|")))
+      ->group("Delivery");
+  command
+      ->add_option("--page-mips", flags->options.mips,
+                   "levels of mipmaps, of ktx2 [as many as --page-padding allows]")
+      ->check(CLI::Range(0, 6).description(""))
+      ->type_name("N")
+      ->group("Delivery");
+  command->add_flag("--page-zstd", flags->options.zstd, "compress ktx2 by Zstandard")->group("Delivery");
   command
       ->add_option("--lightmaps", flags->lightmaps,
                    "folder to bake into, or that a bake wrote [DIR/.lightmaps]")

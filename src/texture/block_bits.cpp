@@ -1,25 +1,11 @@
 #include "texture/block_bits.h"
 
+#include "texture/bit_writer.h"
+
 #include <utility>
 
 namespace rnmbake {
 namespace {
-
-/// Numbers behind each other, each from its lowest bit on.
-class BitWriter {
- public:
-  explicit BitWriter(std::size_t bytes) : bytes_(bytes) {}
-
-  void put(int value, int bits) {
-    for (int bit = 0; bit < bits; ++bit, ++at_)
-      bytes_[at_ / 8] = static_cast<std::uint8_t>(bytes_[at_ / 8] | ((value >> bit & 1) << at_ % 8));
-  }
-  std::vector<std::uint8_t> finish() { return std::move(bytes_); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
 
 void turn(BlockLine& line, int last_step) {
   std::swap(line.ends[0], line.ends[1]);

@@ -37,7 +37,7 @@ OWNED = {
     "utf8proc.h": {"base"},
     "stb_rect_pack.h": {"bake"},
     "zlib.h": {"report", "blender"},
-    "zstd.h": {"blender"},
+    "zstd.h": {"blender", "image"},
 }
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 IMPORT = re.compile(r"\s*from (\w+)(?:\.(\w+))? import ([\w, ]*)")

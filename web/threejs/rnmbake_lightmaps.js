@@ -11,7 +11,6 @@
 // Every standard material of the scene's lightmapped objects then reads its light from the pages, for the normal that its
 // normal map has there. Needs three.js r155 or newer (light in physical units).
 import * as THREE from 'three';
-import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 
 const UV_CHANNEL = 1;  // TEXCOORD_1 of the .glb
 
@@ -78,17 +77,67 @@ function lightFromPages() {
     vec3 lightMapIrradiance = PI * lightMapIntensity * rnmbakeLight(vLightMapUv, rnmbakeNormal);`);
 }
 
-async function loadPage(page, layers, base) {
-  const loader = new EXRLoader();
-  return Promise.all(layers.map(async (layer) => {
-    const texture = await loader.loadAsync(new URL(page.layers[layer || 'flat'], base).href);
-    texture.minFilter = texture.magFilter = THREE.LinearFilter;
-    texture.generateMipmaps = false;
-    texture.channel = UV_CHANNEL;
-    texture.repeat.y = -1;  // EXRLoader puts the last row first, and a glTF's v runs downwards
+// Formats of KTX2 files, by their numbers in Vulkan: three.js's format and type, and how its typed array is called.
+const KTX2_FORMATS = {
+  97: [THREE.RGBAFormat, THREE.HalfFloatType, Uint16Array],
+  122: [THREE.RGBFormat, THREE.UnsignedInt101111Type, Uint32Array],
+  123: [THREE.RGBFormat, THREE.UnsignedInt5999Type, Uint32Array],
+  143: [THREE.RGB_BPTC_UNSIGNED_Format],  // blocks: needs EXT_texture_compression_bptc
+  144: [THREE.RGB_BPTC_SIGNED_Format],
+};
+
+// Without a renderer, which KTX2Loader wants for formats that are transcoded; these are not, and it passes BC6H over.
+async function loadKtx2(url) {
+  const { read } = await import('three/addons/libs/ktx-parse.module.js');
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
+  const file = read(new Uint8Array(await answer.arrayBuffer()));
+  const [format, type, Numbers] = KTX2_FORMATS[file.vkFormat] || [];
+  if (format === undefined) throw new Error(`${url} has texels of a format that is not known here: ${file.vkFormat}`);
+  let decode = (level) => level.levelData.slice();
+  if (file.supercompressionScheme) {
+    const { ZSTDDecoder } = await import('three/addons/libs/zstddec.module.js');
+    const zstd = new ZSTDDecoder();
+    await zstd.init();
+    decode = (level) => zstd.decode(level.levelData, level.uncompressedByteLength).slice();
+  }
+  const mipmaps = file.levels.map((level, k) => {
+    const bytes = decode(level);
+    return { data: Numbers ? new Numbers(bytes.buffer) : bytes,
+      width: Math.max(1, file.pixelWidth >> k), height: Math.max(1, file.pixelHeight >> k) };
+  });
+  const { data, width, height } = mipmaps[0];
+  const texture = Numbers ? new THREE.DataTexture(data, width, height, format, type) : new THREE.CompressedTexture(mipmaps, width, height, format);
+  texture.mipmaps = mipmaps.length > 1 || !Numbers ? mipmaps : [];
+  texture.needsUpdate = true;
+  return texture;
+}
+
+// Both loaders put the last row first.
+async function loadPicture(url) {
+  if (url.endsWith('.exr')) {
+    const { EXRLoader } = await import('three/addons/loaders/EXRLoader.js');
+    return new EXRLoader().loadAsync(url);
+  }
+  const { HDRLoader } = await import('three/addons/loaders/HDRLoader.js');
+  return new HDRLoader().loadAsync(url);
+}
+
+async function loadLayer(url) {
+  const isKtx2 = url.endsWith('.ktx2'), texture = await (isKtx2 ? loadKtx2(url) : loadPicture(url));
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = texture.mipmaps.length > 1 ? THREE.LinearMipmapLinearFilter : THREE.LinearFilter;
+  texture.generateMipmaps = false;
+  texture.channel = UV_CHANNEL;
+  if (!isKtx2) {  // the last row is first, and a glTF's v runs downwards
+    texture.repeat.y = -1;
     texture.offset.y = 1;
-    return texture;
-  }));
+  }
+  return texture;
+}
+
+async function loadPage(page, layers, base) {
+  return Promise.all(layers.map((layer) => loadLayer(new URL(page.layers[layer || 'flat'], base).href)));
 }
 
 // The meshes of a node itself, not of those below it: one, or one for each of its materials.

@@ -5,6 +5,7 @@
 #include "base/read_file.h"
 #include "base/version.h"
 #include "encoding/codecs/make_codec.h"
+#include "lightmap/mips.h"
 #include "pipeline/convert/convert.h"
 #include "pipeline/deliver/delivery_files.h"
 #include "pipeline/deliver/flat_picture.h"
@@ -51,6 +52,29 @@ void check_objects(const nlohmann::json& manifest, const fs::path& file) {
   }
 }
 
+/// How the pages are to be written. Throws as check().
+PageForm page_form(const DeliverOptions& options) {
+  const std::vector<PageFormat>& known = options.engine->formats();
+  const PageFormat own = known.empty() ? PageFormat::exr : known.front();
+  PageForm form{.format = options.format.value_or(own), .zstd = options.zstd};
+  if (options.format && std::ranges::find(known, form.format) == known.end()) {
+    std::vector<std::string> names;
+    for (const PageFormat format : known) names.emplace_back(name_of(format));
+    fail(ExitCode::unsupported, "{} does not read pages as {}; {}", options.engine->name(),
+         name_of(form.format),
+         known.empty() ? "leave --page-format out" : fmt::format("choose of {}", fmt::join(names, ", ")));
+  }
+  const int most = mips_within(options.pages.padding);
+  form.mips = options.mips.value_or(is_ktx2(form.format) ? most : 0);
+  if (!is_ktx2(form.format) && (form.mips > 0 || form.zstd))
+    fail(ExitCode::usage, "{} has no {}; choose --page-format ktx2-rgba16f, or leave the flag out",
+         name_of(form.format), form.mips > 0 ? "mipmaps" : "compression by Zstandard");
+  if (form.mips > most)
+    fail(ExitCode::usage, "{} mipmaps reach past a padding of {} texels; pass --page-padding {}", form.mips,
+         options.pages.padding, 1 << form.mips);
+  return form;
+}
+
 /// What one delivery knows while it is made.
 class EngineDelivery {
  public:
@@ -64,7 +88,8 @@ class EngineDelivery {
         lightmaps_(lightmaps),
         folder_(open_lightmaps(lightmaps)),
         manifest_(read_manifest(lightmaps / "manifest.json")),
-        files_(session.new_folder("delivery")) {
+        files_(session.new_folder("delivery")),
+        writer_(files_, page_form(options), options.pages.padding) {
     if (folder_.places.empty())
       fail(ExitCode::invalid_input, "{} holds no lightmap: none was baked", lightmaps.string());
   }
@@ -99,11 +124,23 @@ class EngineDelivery {
     for (std::size_t page = 0; page < layout().pages.size(); ++page) {
       say(0.5 + 0.2 * double(page) / double(layout().pages.size()), fmt::format("page {}", page));
       const RectSize size = layout().pages[page];
-      pages_.push_back(
-          {{"width", size.width},
-           {"height", size.height},
-           {"layers", target_.write_page(files_, page, compose_page(source, layout(), page, layers))}});
+      pages_.push_back({{"width", size.width},
+                        {"height", size.height},
+                        {"layers", write_page(page, compose_page(source, layout(), page, layers))}});
     }
+    summary_.form = writer_.form();
+    summary_.losses = writer_.losses();
+    for (const PageLoss& loss : summary_.losses) {
+      ordered_json& page = pages_[loss.page];
+      page["format"] = name_of(writer_.form().format);
+      page["mips"] = writer_.form().mips;
+      page["loss"][loss.layer] = record_of(loss.lost);
+    }
+  }
+
+  ordered_json write_page(std::size_t number, Page page) {
+    return target_.formats().empty() ? target_.write_page(files_, number, std::move(page))
+                                     : writer_.write(number, page);
   }
 
   /// All lightmaps, in the encoding.
@@ -129,10 +166,8 @@ class EngineDelivery {
     for (std::size_t page = 0; page < flat.size(); ++page) {
       pictures_.push_back(folder / fmt::format("page{}.png", page));
       const PictureMetrics lost = write_flat_picture(pictures_.back(), flat[page], white_);
-      pages_[page]["flat_picture"] = {{"white", white_},
-                                      {"relative_bias", lost.relative_bias.value},
-                                      {"relative_rmse", lost.relative_rmse.value},
-                                      {"max", lost.max}};
+      pages_[page]["flat_picture"] = {{"white", white_}};
+      pages_[page]["flat_picture"].update(record_of(lost));
     }
   }
 
@@ -176,6 +211,7 @@ class EngineDelivery {
   LightmapFolder folder_;
   nlohmann::json manifest_;
   DeliveryFiles files_;
+  PageWriter writer_;
   DeliverySummary summary_;
   ordered_json pages_ = ordered_json::array(), record_;
   std::vector<fs::path> pictures_;
@@ -197,12 +233,17 @@ fs::path scene_to_deliver(const fs::path& lightmaps) {
   return *saved;
 }
 
-DeliverySummary deliver(BlenderSession& session, const fs::path& lightmaps, const DeliverOptions& options,
-                        const std::function<void(double, std::string)>& progress) {
+void check(const DeliverOptions& options) {
   const std::vector<std::string>& known = options.engine->encodings();
   if (!options.encoding.empty() && std::ranges::find(known, options.encoding) == known.end())
     fail(ExitCode::unsupported, "there is no decoder of '{}' for {}; choose of {}", options.encoding,
          options.engine->name(), fmt::join(known, ", "));
+  (void)page_form(options);
+}
+
+DeliverySummary deliver(BlenderSession& session, const fs::path& lightmaps, const DeliverOptions& options,
+                        const std::function<void(double, std::string)>& progress) {
+  check(options);
   const FolderLock lock = hold_folder(session.settings().output.dir, session.settings().run.lock_wait);
   return EngineDelivery(session, lightmaps, options, progress).make();
 }

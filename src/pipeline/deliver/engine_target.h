@@ -4,6 +4,7 @@
 
 #include "encoding/codec.h"
 #include "pipeline/deliver/delivery_files.h"
+#include "pipeline/deliver/page_writer.h"
 #include "pipeline/deliver/pages.h"
 
 #include <cstddef>
@@ -16,7 +17,8 @@ namespace rnmbake {
 
 class EngineTarget {
  public:
-  static constexpr const char* flat = "flat";  // the encoding without directions, and its only layer
+  static constexpr const char* flat =
+      PageWriter::flat;  // the encoding without directions, and its only layer
 
   EngineTarget() = default;
   EngineTarget(const EngineTarget&) = delete;
@@ -35,9 +37,13 @@ class EngineTarget {
   /// Layers along Blender's world axes rather than in tangent space; bakes then need --frames.
   [[nodiscard]] virtual bool in_world() const { return false; }
 
-  /// Writes one page, whose layers are the encoding's in their order, and returns what the record says of
-  /// them: the file of each layer, by its name. Unless an engine wants something else: an EXR of half floats
-  /// for each, pageN.LAYER.exr.
+  /// Formats of pages that users may choose of, the first where they do not; none where write_page() knows
+  /// what the engine reads.
+  [[nodiscard]] virtual const std::vector<PageFormat>& formats() const;
+
+  /// Writes one page of an engine without formats(), whose layers are the encoding's in their order, and
+  /// returns what the record says of them: the file of each layer, by its name. Unless an engine wants
+  /// something else: an EXR of half floats for each, pageN.LAYER.exr.
   [[nodiscard]] virtual nlohmann::ordered_json write_page(DeliveryFiles& files, std::size_t number,
                                                           Page page) const;
 

@@ -3,9 +3,11 @@
 // shader samples as is done here, and so does bevy-baked-gi write. The cube is along world axes however the
 // box is turned: the shader turns places into the box, not normals.
 #include "base/error.h"
+#include "image/ktx2.h"
 #include "probes/formats/engine_box.h"
-#include "probes/formats/ktx2.h"
 #include "probes/formats/makers.h"
+
+#include <utility>
 
 namespace rnmbake {
 namespace {
@@ -28,7 +30,7 @@ std::string voxels(const ProbeVolume& volume, const EngineBox& box) {
     }
   }
   const auto side = [&](std::size_t k) { return static_cast<std::uint32_t>(box.counts[k]); };
-  return ktx2_of_halves({side(0), 2 * side(1), 3 * side(2)}, texels);
+  return ktx2_of({.size = {side(0), 2 * side(1), 3 * side(2)}, .levels = {std::move(texels)}});
 }
 
 std::string row_of(const std::string& file, const EngineBox& box) {

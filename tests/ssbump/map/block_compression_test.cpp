@@ -4,6 +4,7 @@
 #include "image/layered_exr.h"
 #include "ssbump/map/compression_error.h"
 #include "ssbump/map/weights.h"
+#include "support/dds_file.h"
 #include "support/pictures.h"
 
 #include <algorithm>
@@ -50,32 +51,13 @@ FloatImage noise_in(std::size_t channel, FloatImage image) {
   return image;
 }
 
-/// The blocks as a DDS file, https://learn.microsoft.com/windows/win32/direct3ddds/dds-header.
-std::string dds_file(TextureFormat format, int width, int height, const std::vector<std::uint8_t>& blocks) {
-  const auto number = [](std::size_t value) {
-    std::string bytes;
-    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255);
-    return bytes;
-  };
-  const auto zeros = [](std::size_t numbers) { return std::string(4 * numbers, '\0'); };
-  const bool bc1 = format == TextureFormat::bc1;
-  const std::size_t caps = 1, has_height = 2, has_width = 4, has_format = 0x1000, has_size = 0x80000;
-  std::string file = "DDS " + number(124) + number(caps | has_height | has_width | has_format | has_size) +
-                     number(std::size_t(height)) + number(std::size_t(width)) + number(blocks.size()) +
-                     zeros(13);
-  file += number(32) + number(4) + (bc1 ? "DXT1" : "DX10") + zeros(5);  // the format, by its four letters
-  file += number(0x1000) + zeros(4);                                    // a texture
-  if (!bc1)
-    file += number(98) + number(3) + number(0) + number(1) + number(0);  // BC7_UNORM, flat, one of them
-  return file.append(blocks.begin(), blocks.end());
-}
-
 /// What OpenImageIO's decoder, which knows nothing of ours, reads out of the blocks.
 FloatImage read_by_openimageio(TextureFormat format, const FloatImage& image) {
   const TempFolder folder;
   const auto path = folder.path() / "blocks.dds";
   std::ofstream(path, std::ios::binary)
-      << dds_file(format, image.width(), image.height(), blocks_of(format, image));
+      << dds_file(format == TextureFormat::bc1 ? DdsFormat::bc1 : DdsFormat::bc7_unorm, image.width(),
+                  image.height(), blocks_of(format, image));
   const FloatImage whole = read_image(path).layers.at(0).pixels;
   FloatImage colours(whole.width(), whole.height(), 3);
   for (int y = 0; y < whole.height(); ++y) {

@@ -8,6 +8,7 @@ them is left out, with a word, where there is no Chromium, npm or network.
 """
 import functools
 import json
+import math
 import os
 from pathlib import Path
 import shutil
@@ -22,13 +23,15 @@ ROOT = HERE.parents[2]
 sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
 import browser  # noqa: E402
 from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender  # noqa: E402
+import page_reading  # noqa: E402
 import served  # noqa: E402
 
-PACKAGES = (served.THREE, "gltf-validator@2.0.0-dev.3.10")
+PACKAGES = (served.THREE, "gltf-validator@2.0.0-dev.3.10", "ktx-parse@2.0.0")
 PANELS = ROOT / "scenes" / "built" / "panels.blend"
 QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
 WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
 BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
+ZSTD_TOO = "ktx2-b10g11r11"  # as which pages are compressed, too
 # UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
 KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
 
@@ -60,6 +63,17 @@ def delivered_once():
     done = deliver("threejs", scene, top / "site")
     assert done.returncode == OK, done.stderr
     return top, scene
+
+
+@functools.cache
+def delivered_as(format_):
+    """The first delivery's maps with pages of another format."""
+    top, _ = delivered_once()
+    out = top / ("as " + format_)
+    done = deliver("threejs", top / "site" / ".lightmaps", out, "--encoding", "rnm-vrad",
+                   "--page-format", format_, *(["--page-zstd"] if format_ == ZSTD_TOO else []))
+    assert done.returncode == OK, done.stderr
+    return out
 
 
 def deliver(engine, source, out, *flags):
@@ -126,6 +140,63 @@ class Again(Delivered):
         self.assertEqual(set(json.loads((out / "lightmaps.json").read_text())["files"]), names)
 
 
+class PageFormats(Delivered):
+    """Pages as readers that know nothing of ours see them, against those of the first delivery, which are EXR."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.modules = served.node_modules(cls.top, *PACKAGES)
+        cls.exr = page_reading.picture(cls.out / cls.record["pages"][0]["layers"]["rnm0"])
+
+    def delivered_as(self, format_):
+        out = delivered_as(format_)
+        page = json.loads((out / "lightmaps.json").read_text())["pages"][0]
+        self.assertEqual(page["format"], format_)
+        return page, out / page["layers"]["rnm0"]
+
+    def assert_near(self, seen, page, most, rmse):
+        """Each texel of the maps within `most` of its brightest channel, and all within what the record says is lost."""
+        self.assertEqual(len(seen), len(self.exr))
+        square = brightness = 0
+        for texel, true in zip(seen, self.exr):
+            if not any(true):
+                continue
+            off = [a - b for a, b in zip(texel, true)]
+            square += sum(one * one for one in off)
+            brightness += sum(one * one for one in true)
+            self.assertLessEqual(max(map(abs, off)), 1.01 * most * max(true) + 1e-6, (texel, true))
+        self.assertLess((square / brightness) ** .5, rmse)
+        loss = page["loss"]["rnm0"]
+        self.assertLess(loss["relative_rmse"], 2 * rmse)
+        self.assertLess(abs(loss["relative_bias"]), rmse / 2 + 1e-9)
+        self.assertLessEqual(loss["max"], most * max(map(max, self.exr)) + 1e-6)
+
+    def test_ktx2(self):
+        for format_, vk, samples, most, rmse in (("ktx2-rgba16f", page_reading.RGBA16F, 4, 0, 1e-9),
+                                                 ("ktx2-b10g11r11", page_reading.B10G11R11, 3, 1 / 64, .008),
+                                                 ("ktx2-bc6h", page_reading.BC6H_UF, 1, math.inf, .05)):
+            with self.subTest(format_):
+                page, file = self.delivered_as(format_)
+                parsed = page_reading.parse_ktx2(self.modules, file)
+                self.assertEqual((parsed["vkFormat"], parsed["pixelWidth"], parsed["pixelHeight"], parsed["pixelDepth"]),
+                                 (vk, page["width"], page["height"], 0))
+                self.assertEqual((len(parsed["levels"]), page["mips"]), (3, 2))  # the padding is 4
+                (descriptor,) = parsed["dataFormatDescriptor"]
+                self.assertEqual(len(descriptor["samples"]), samples)
+                for level, data in enumerate(parsed["levels"]):
+                    width, height = (max(1, page[side] >> level) for side in ("width", "height"))
+                    texels = (width + 3) // 4 * 16 * ((height + 3) // 4) if samples == 1 else width * height
+                    self.assertEqual(len(data), texels * page_reading.TEXEL_BYTES[vk])
+                if format_ == ZSTD_TOO:
+                    self.assertLess(sum(parsed["stored"]), .95 * sum(map(len, parsed["levels"])))
+                self.assert_near(page_reading.level_texels(parsed, 0, self.top), page, most, rmse)
+
+    def test_radiance(self):
+        page, file = self.delivered_as("hdr")
+        self.assert_near(page_reading.picture(file), page, 1 / 256, .004)
+
+
 class Refusals(Delivered):
     def refused(self, done, code, *words):
         self.assertEqual(done.returncode, code, done.stderr)
@@ -139,6 +210,14 @@ class Refusals(Delivered):
 
     def test_an_encoding_without_decoder(self):
         self.refused(deliver("threejs", self.maps, self.top / "none", "--encoding", "flat"), UNSUPPORTED, "flat")
+
+    def test_formats_that_do_not_hold_it(self):
+        out = self.top / "format"
+        self.refused(deliver("threejs", self.maps, out, "--page-format", "png-rgbm"), UNSUPPORTED, "threejs", "ktx2-bc6h")
+        self.refused(deliver("gltf", self.maps, out, "--encoding", "zh3", "--page-format", "hdr"), UNSUPPORTED, "l1", "below 0")
+        self.refused(deliver("gltf", self.maps, out, "--page-format", "hdr", "--page-mips", "1"), USAGE, "mipmaps")
+        self.refused(deliver("gltf", self.maps, out, "--page-format", "ktx2-bc6h", "--page-mips", "4"), USAGE, "--page-padding 16")
+        self.assertFalse((out / "lightmaps.json").exists())
 
     def test_a_bake_without_a_saved_scene(self):
         bare = self.top / "bare"
@@ -197,6 +276,27 @@ class ThreeJs(Delivered, served.Served):
 
     def test_flat_light_is_that_of_render(self):
         self.assert_same_view("single", True)
+
+    def test_pages_of_other_formats_are_the_same_light(self):
+        """As a whole, and each pixel in the mean."""
+        self.open("view.html")
+        width, height = 60, 38
+        true = self.browser.run(f"seen({width}, {height}, false)")
+        blocks = self.browser.run("has('EXT_texture_compression_bptc')")
+        for format_, most in (("hdr", .01), ("ktx2-rgba16f", .005), ("ktx2-b10g11r11", .01),
+                              *([("ktx2-bc6h", .02)] if blocks else [])):
+            with self.subTest(format_):
+                link = self.out / format_
+                if not link.exists():
+                    link.symlink_to(delivered_as(format_))
+                self.open(f"view.html?{format_}/lightmaps.json")
+                seen = self.browser.run(f"seen({width}, {height}, false)")
+                self.assertAlmostEqual(sum(seen) / sum(true), 1, delta=most)
+                off = sum(abs(a - b) for a, b in zip(seen, true)) / sum(true)
+                self.assertLess(off, 2 * most)
+                self.assertEqual(self.problems(), [])
+        if not blocks:
+            print("no BC6H in this browser: its pages are read by ktx-parse and OpenImageIO alone", file=sys.stderr)
 
     def test_the_page_shows_the_scene(self):
         self.open("index.html")

@@ -11,6 +11,8 @@ class Gltf final : public EngineTarget {
 
   /// flat, and all that three.js gets a decoder for.
   [[nodiscard]] const std::vector<std::string>& encodings() const override;
+
+  [[nodiscard]] const std::vector<PageFormat>& formats() const override { return page_formats(); }
 };
 
 }  // namespace rnmbake

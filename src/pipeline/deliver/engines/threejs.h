@@ -10,6 +10,7 @@ class ThreeJs final : public EngineTarget {
  public:
   [[nodiscard]] const char* name() const override { return "threejs"; }
   [[nodiscard]] const std::vector<std::string>& encodings() const override;
+  [[nodiscard]] const std::vector<PageFormat>& formats() const override;
   void add_files(DeliveryFiles& files, nlohmann::ordered_json& record) const override;
 };
 
