@@ -72,6 +72,8 @@ endif()
 # The scene that is like other people's files, through every command.
 rnm_check(attic.check blender 1200 with_blender/attic)
 
+rnm_check(added_light.check blender 600 with_blender/added_light)
+
 rnm_check(manifest.schema blender 1200 with_blender/manifest)
 
 foreach(CLASS Changes Killed Local Scenes)
@@ -81,12 +83,14 @@ foreach(CLASS Reference Traced Validated)
   rnm_check(reuse.${CLASS} blender 1200 with_blender/reuse_traced ARGS ${CLASS})
 endforeach()
 
+set_tests_properties(reuse.Local reuse.Traced reuse.Validated PROPERTIES LABELS "blender;long")
+
 rnm_check(outputs.check blender 1200 with_blender/outputs)
 
 rnm_check(saved_scene.check blender 1200 with_blender/saved_scene)
 
 # A bake as tasks for many machines, and on a Slurm of two nodes. (All of class Slurm, five minutes: farm/slurm_check.py.)
-rnm_check(farm.Tasks "blender;farm" 2400 farm/farm ARGS Tasks)
+rnm_check(farm.Tasks "blender;farm;long" 2400 farm/farm ARGS Tasks)
 rnm_check(farm.NoSlurm "blender;farm" 1200 farm/slurm ARGS NoSlurm)
 rnm_check(farm.Slurm "blender;farm" 2400 farm/slurm ARGS Slurm.test_a_lost_node_is_made_up_for
           Slurm.test_a_failing_object_stops_its_own_merge_alone Slurm.test_a_node_that_does_not_see_the_cache)
@@ -94,7 +98,7 @@ set_tests_properties(farm.Slurm PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skippe
 
 # A plan as a job of other queues, run by their own programs.
 foreach(CLASS OpenJobDescription Flamenco)
-  rnm_check(farm.${CLASS} "blender;farm" 1200 farm/export ENV RNMBAKE_BUILD=${CMAKE_BINARY_DIR} ARGS ${CLASS})
+  rnm_check(farm.${CLASS} "blender;farm;long" 1200 farm/export ENV RNMBAKE_BUILD=${CMAKE_BINARY_DIR} ARGS ${CLASS})
   set_tests_properties(farm.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 endforeach()
 

@@ -6,6 +6,7 @@ import bpy
 
 from core.task import INVALID_INPUT, Refusal
 from opening import untrusted
+from opening.added_light import add_light
 from opening.caches import missing_caches
 from opening.choose import choose
 from opening.pictures import picture_faults
@@ -21,6 +22,7 @@ def open_scene(task):
     if not bpy.data.filepath:
         raise Refusal(f"{task.request['scene']}: Blender did not open it; is it damaged, or saved by a newer Blender?")
     choose(task)
+    add_light(task.request)
     refuse_devices()
     refuse_missing_libraries()
     refuse_blocked_scripts(task)

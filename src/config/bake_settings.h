@@ -44,6 +44,8 @@ struct SceneSettings {
   std::vector<std::string> exclude;
   bool allow_scripts = false;
   bool allow_dark = false;  // nothing in the scene gives light
+  double sky = 0;           // radiance from everywhere, in place of the scene's world; 0: its own
+  std::string sun;          // a lamp beside the scene's own: config/sun.h; "": none
   Materials materials = Materials::full;
 };
 

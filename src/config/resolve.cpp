@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "config/sun.h"
 
 #include <algorithm>
 #include <set>
@@ -40,6 +41,13 @@ bool takes_rnm(const BakingSettings& bake) {
 
 void fill_bases(BakingSettings& bake) {
   if (bake.bases.empty() && takes_rnm(bake)) bake.bases = rnm;
+}
+
+void check_sun(const SceneSettings& scene, const std::string& where) {
+  if (scene.sun.empty() || sun_of(scene.sun)) return;
+  fail(ExitCode::usage,
+       "{}: sun = '{}' is no sun; give azimuth, elevation (-90 to 90 degrees) and strength: 135,45,3", where,
+       scene.sun);
 }
 
 void check_bases(const BakingSettings& bake, const std::string& where) {
@@ -157,6 +165,7 @@ void ResolvedConfig::check_together() const {
          provenance("basis"), provenance("basis_set"));
   }
   check_open_end();
+  check_sun(globals.scene, provenance("sun"));
   const auto& bases = globals.bake.bases;
   if (globals.output.normalize == Normalize::flat && takes_rnm(globals.bake) &&
       std::find(bases.begin(), bases.end(), "flat") == bases.end()) {

@@ -58,6 +58,13 @@ std::vector<Setting> make_settings_table() {
       scene("exclude", &Scene::exclude, "names of objects to leave out; they still cast light and shadow"),
       scene("allow_scripts", &Scene::allow_scripts, "let Python scripts and drivers in the scene file run"),
       scene("allow_dark", &Scene::allow_dark, "go on with a scene in which nothing gives light"),
+      scene("sky", &Scene::sky,
+            "light a scene that brings no light: radiance of a white sky, in place of its world")
+          .empty_means("the scene's own world"),
+      scene("sun", &Scene::sun,
+            "and a sun beside its lamps: AZIMUTH,ELEVATION,STRENGTH in degrees (from +Y over +X, above the "
+            "horizon) and W/m2")
+          .empty_means("none"),
       scene("materials", &Scene::materials,
             "lambert replaces every material by its own baked albedo and emission")
           .only({Purpose::bake}),

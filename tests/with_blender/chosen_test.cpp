@@ -112,7 +112,7 @@ TEST_F(ChosenWithBlender, HasNoChoiceInAnExportedScene) {
   const ProcessResult refused =
       run_words({RNMBAKE_BINARY, "reference", exported, "-o", path("none"), "--frame", "3"});
   EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::usage)) << refused.output;
-  EXPECT_NE(refused.output.find("--frame chooses in a .blend"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("--frame is for a .blend"), std::string::npos) << refused.output;
 }
 
 }  // namespace

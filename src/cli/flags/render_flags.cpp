@@ -19,10 +19,10 @@ constexpr int smallest = 4, largest = 16384;  // Blender's own limit, and one th
 
 /// Settings that matter for a view.
 constexpr std::array view_settings{
-    "bounces",    "seed",    "device",       "allow_scripts",  "blender_version",
-    "blender",    "scripts", "threads",      "timeout",        "launch_timeout",
-    "memory_max", "sandbox", "sandbox_read", "keep_temporary", "scene",
-    "view_layer", "frame"};
+    "bounces",      "seed",           "device",  "allow_scripts",  "blender_version", "blender",
+    "scripts",      "threads",        "timeout", "launch_timeout", "memory_max",      "sandbox",
+    "sandbox_read", "keep_temporary", "scene",   "view_layer",     "frame",           "sky",
+    "sun"};
 
 template <std::size_t N>
 std::vector<std::string> names(const std::array<std::string_view, N>& list) {

@@ -19,10 +19,10 @@ using nlohmann::json;
 
 constexpr int farm_schema = 2;
 
-constexpr std::array<std::string_view, 16> needed_by_launches{
+constexpr std::array<std::string_view, 18> needed_by_launches{
     "scene",        "view_layer",  "frame",          "allow_scripts", "materials", "atlas_limit",
     "memory_limit", "blender",     "scripts",        "timeout",       "threads",   "retries",
-    "cache",        "cache_limit", "launch_timeout", "jobs"};
+    "cache",        "cache_limit", "launch_timeout", "jobs",          "sky",       "sun"};
 
 json pass_json(const FarmPass& pass) {
   const SamplePass& of = pass.samples;

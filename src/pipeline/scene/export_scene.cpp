@@ -14,16 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An exported scene is one moment of one view layer, and holds no other.
+/// An exported scene is one moment of one view layer with its light, and holds no other.
 void refuse_choice(const SceneSettings& scene) {
   const SceneSettings none;
   const char* chosen = scene.scene != none.scene             ? "--scene"
                        : scene.view_layer != none.view_layer ? "--view-layer"
                        : scene.frame != none.frame           ? "--frame"
+                       : scene.sky != none.sky               ? "--sky"
+                       : scene.sun != none.sun               ? "--sun"
                                                              : nullptr;
   if (chosen == nullptr) return;
   fail(ExitCode::usage,
-       "{}: {} chooses in a .blend, and this is an exported scene; give it to rnmbake export",
+       "{}: {} is for a .blend or glTF, and this is an exported scene; give it to rnmbake export",
        scene.file.string(), chosen);
 }
 

@@ -38,6 +38,7 @@ ResultKey key_of(const BlenderSession& session) {
   key.add("ending", settings.scene.file.extension().string());
   key.add("scene", settings.scene.scene).add("view layer", settings.scene.view_layer);
   key.add("frame", std::int64_t{settings.scene.frame});
+  key.add("sky", settings.scene.sky).add("sun", settings.scene.sun);
   key.add("blender", blender.version_text).add("build", blender.build);
   key.add("scripts", scripts_hash(settings.run.scripts)).add("program", program_hash());
   return key.make("scene");

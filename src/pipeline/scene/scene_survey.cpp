@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/object_notes.h"
 #include "blender/blend_header.h"
+#include "config/sun.h"
 #include "pipeline/scene/launch_answer.h"
 #include "scene/survey_parse.h"
 
@@ -37,11 +38,14 @@ SceneSurvey survey_blend(BlenderSession& session, const BlendPath& blend) {
 
 nlohmann::json scene_request(const BlenderSession& session, const fs::path& scene) {
   const SceneSettings& settings = session.settings().scene;
-  return {{"scene", fs::absolute(scene).string()},
-          {"allow_scripts", settings.allow_scripts},
-          {"scene_name", settings.scene},
-          {"view_layer", settings.view_layer},
-          {"frame", settings.frame}};
+  nlohmann::json request{{"scene", fs::absolute(scene).string()},
+                         {"allow_scripts", settings.allow_scripts},
+                         {"scene_name", settings.scene},
+                         {"view_layer", settings.view_layer},
+                         {"frame", settings.frame}};
+  if (settings.sky > 0) request["sky"] = settings.sky;
+  if (const auto sun = sun_of(settings.sun)) request["sun"] = {sun->azimuth, sun->elevation, sun->strength};
+  return request;
 }
 
 Launch launch_on(BlenderSession& session, const char* entry, const char* purpose, const BlendPath& scene) {
