@@ -11,6 +11,7 @@ import json
 import math
 import os
 from pathlib import Path
+import re
 import shutil
 import struct
 import subprocess
@@ -195,6 +196,29 @@ class PageFormats(Delivered):
     def test_radiance(self):
         page, file = self.delivered_as("hdr")
         self.assert_near(page_reading.picture(file), page, 1 / 256, .004)
+
+
+class Bevy(Delivered):
+    """Of its structure alone: the module's words are Bevy's, its tables the record's."""
+
+    def test_module_names_every_node_and_page(self):
+        out = self.top / "bevy"
+        done = deliver("bevy", self.maps, out, "--page-format", "ktx2-b10g11r11")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        record, code = json.loads((out / "lightmaps.json").read_text()), (out / "rnmbake_lightmaps.rs").read_text()
+        self.assertEqual(record["encoding"], "flat")
+        nodes = {gltf["name"] for gltf in json_of(out / "scene.glb")["nodes"]}
+        listed = re.findall(r'^ {4}\("(.*)", (\d+)\),$', code, re.MULTILINE)
+        self.assertEqual([(name, int(page)) for name, page in listed], [(one["name"], one["page"]) for one in record["objects"]])
+        self.assertLessEqual({name for name, _ in listed}, nodes)
+        self.assertEqual(re.findall(r'^ {4}"(.*)",$', code, re.MULTILINE), [page["layers"]["flat"] for page in record["pages"]])
+        for page in record["pages"]:
+            self.assertTrue((out / page["layers"]["flat"]).is_file())
+        self.assertIn("use bevy::pbr::Lightmap;", code)
+        if shutil.which("rustfmt"):
+            said = subprocess.run(["rustfmt", "--edition", "2024", "--check", str(out / "rnmbake_lightmaps.rs")], capture_output=True,
+                                  text=True)
+            self.assertNotIn("error", said.stderr)
 
 
 class Refusals(Delivered):

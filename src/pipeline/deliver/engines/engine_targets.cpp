@@ -1,6 +1,7 @@
 #include "pipeline/deliver/engines/engine_targets.h"
 
 #include "base/error.h"
+#include "pipeline/deliver/engines/bevy.h"
 #include "pipeline/deliver/engines/gltf.h"
 #include "pipeline/deliver/engines/threejs.h"
 
@@ -11,7 +12,8 @@ namespace rnmbake {
 const std::vector<const EngineTarget*>& engine_targets() {
   static const Gltf gltf;
   static const ThreeJs threejs;
-  static const std::vector<const EngineTarget*> all{&gltf, &threejs};
+  static const Bevy bevy;
+  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &bevy};
   return all;
 }
 
