@@ -20,6 +20,7 @@ import cave  # noqa: E402
 import closed_forms  # noqa: E402
 import cobbles  # noqa: E402
 import cornell  # noqa: E402
+import dungeon  # noqa: E402
 import hall  # noqa: E402
 import kit  # noqa: E402
 import panels  # noqa: E402
@@ -40,6 +41,7 @@ SCENES = {
     "cave": cave.build,
     "panels": panels.build,
     "cobbles": cobbles.build,
+    "dungeon": dungeon.build,
     "two_rooms": two_rooms.build,
     "attic": attic.build,
 }

@@ -18,7 +18,7 @@ EXPECTED = {
     "plane_sun": (1, 2), "plane_sky": (1, 2), "plane_lamp": (2, 2), "furnace": (1, 12),
     "suns": (7 * 4 + 5 * 2 * 4, 2), "smooth_box": (1, 12), "smooth_cylinder": (1, 28),
     "cornell": (9, 4000), "hall": (40, 4000), "cave": (1, 25000), "panels": (13, 4000),
-    "cobbles": (4, 4000), "two_rooms": (6, 4000),
+    "cobbles": (4, 4000), "two_rooms": (6, 4000), "dungeon": (150, 4000),
 }
 RASTER = 128
 
