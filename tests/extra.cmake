@@ -105,6 +105,10 @@ endforeach()
 # Scenes handed over to engines: the Khronos validator, three.js in a real browser.
 rnm_check(deliver.check blender 1200 with_blender/deliver/deliver)
 set_tests_properties(deliver.check PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+foreach(CLASS PlayCanvas Babylon)
+  rnm_check(deliver.${CLASS} blender 1200 with_blender/deliver/web_engines ARGS ${CLASS})
+  set_tests_properties(deliver.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+endforeach()
 
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)

@@ -1,8 +1,10 @@
 # What goes with a delivery for the web travels inside the binary.
 include(Embed)
-file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/web/threejs ${CMAKE_SOURCE_DIR}/web/threejs/*.*)
-list(SORT NAMES)
-rnm_embed(embedded_threejs_files ${CMAKE_SOURCE_DIR}/web/threejs ROOM_SOURCES ${NAMES})
+foreach(ENGINE threejs playcanvas babylon)
+  file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/web/${ENGINE} ${CMAKE_SOURCE_DIR}/web/${ENGINE}/*.*)
+  list(SORT NAMES)
+  rnm_embed(embedded_${ENGINE}_files ${CMAKE_SOURCE_DIR}/web/${ENGINE} ROOM_SOURCES ${NAMES})
+endforeach()
 file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped
      ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped/*)
 list(SORT NAMES)

@@ -10,28 +10,19 @@ import functools
 import json
 import math
 import os
-from pathlib import Path
 import re
 import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[2]
-sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
-import browser  # noqa: E402
-from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender  # noqa: E402
-import page_reading  # noqa: E402
-import served  # noqa: E402
+from engine_view import HERE, QUICK, Delivered, EngineView, deliver, delivered_once
+from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender
+import page_reading
+import served
 
 PACKAGES = (served.THREE, "gltf-validator@2.0.0-dev.3.10", "ktx-parse@2.0.0")
-PANELS = ROOT / "scenes" / "built" / "panels.blend"
-QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
-WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
-BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
 ZSTD_TOO = "ktx2-b10g11r11"  # as which pages are compressed, too
 # UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
 KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
@@ -43,42 +34,15 @@ def json_of(glb):
     return json.loads(data[20:20 + length])
 
 
-class Delivered(unittest.TestCase):
-    """All tests look at one delivery."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.top, cls.scene = delivered_once()
-        cls.out = cls.top / "site"
-        cls.maps = cls.out / ".lightmaps"
-        cls.record = json.loads((cls.out / "lightmaps.json").read_text())
-
-
-@functools.cache
-def delivered_once():
-    folder = tempfile.TemporaryDirectory(prefix="rnmbake-deliver-")
-    unittest.addModuleCleanup(folder.cleanup)
-    top = Path(folder.name)
-    scene = top / "panels.blend"
-    run_blender(HERE / "matt_scene.py", scene, scene=PANELS)
-    done = deliver("threejs", scene, top / "site")
-    assert done.returncode == OK, done.stderr
-    return top, scene
-
-
 @functools.cache
 def delivered_as(format_):
     """The first delivery's maps with pages of another format."""
-    top, _ = delivered_once()
+    top, _ = delivered_once("threejs")
     out = top / ("as " + format_)
     done = deliver("threejs", top / "site" / ".lightmaps", out, "--encoding", "rnm-vrad",
                    "--page-format", format_, *(["--page-zstd"] if format_ == ZSTD_TOO else []))
     assert done.returncode == OK, done.stderr
     return out
-
-
-def deliver(engine, source, out, *flags):
-    return rnmbake("deliver", source, "--engine", engine, "-o", out, *QUICK, *flags)
 
 
 class Glb(Delivered):
@@ -254,56 +218,16 @@ class Refusals(Delivered):
         self.refused(rnmbake("deliver", self.scene, "--engine", "gltf"), USAGE, "-o DIR")
 
 
-class ThreeJs(Delivered, served.Served):
-    @classmethod
-    def setUpClass(cls):
-        browser.require()
-        super().setUpClass()
-        (cls.out / "node_modules").symlink_to(served.node_modules(cls.top, *PACKAGES))
-        shutil.copy(HERE / "view.html", cls.out)
-        cls.serve(cls.out, 480, 270)
-
-    def rendered(self, decode):
-        """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
-        picture = self.top / f"{decode}.exr"
-        done = rnmbake("render", self.scene, "--lightmaps", self.maps, "--decode", decode, "-o", picture, "--resolution",
-                       f"{WIDTH}x{HEIGHT}", "--samples", "256", "-q")
-        self.assertEqual(done.returncode, OK, done.stderr)
-        said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(picture)], capture_output=True, text=True,
-                              check=True).stdout
-        rows = [list(map(float, line.split("):")[1].split())) for line in said.splitlines() if "Pixel (" in line]
-        self.assertEqual(len(rows), WIDTH * HEIGHT)
-        return [row[:3] for row in rows], [row[3] == 1 for row in rows]
-
-    def assert_same_view(self, decode, flat):
-        """Over blocks of pixels that see nothing but surfaces, the mean of both is the same within 2 %."""
-        self.open("view.html")
-        seen = self.browser.run(f"seen({WIDTH}, {HEIGHT}, {str(flat).lower()})")
-        expected, covered = self.rendered(decode)
-        compared, off = 0, []
-        for top in range(0, HEIGHT, BLOCK):
-            for left in range(0, WIDTH, BLOCK):
-                pixels = [(left + x, top + y) for y in range(BLOCK) for x in range(BLOCK)]
-                if not all(covered[y * WIDTH + x] for x, y in pixels):
-                    continue
-                mean = sum(sum(expected[y * WIDTH + x]) for x, y in pixels)
-                other = sum(sum(seen[3 * ((HEIGHT - 1 - y) * WIDTH + x):][:3]) for x, y in pixels)
-                compared += 1
-                if abs(other - mean) > .02 * mean:
-                    off.append((left, top, other / mean))
-        self.assertGreater(compared, 250)
-        self.assertLessEqual(len(off), .05 * compared, off[:20])
-
+class ThreeJs(EngineView):
     def test_directional_light_is_that_of_render(self):
-        self.assert_same_view("vrad", False)
-        self.assertEqual(self.problems(), [])
+        self.assert_same_view("vrad")
 
     def test_flat_light_is_that_of_render(self):
-        self.assert_same_view("single", True)
+        self.assert_same_view("single", flat=True)
 
     def test_pages_of_other_formats_are_the_same_light(self):
         """As a whole, and each pixel in the mean."""
-        self.open("view.html")
+        self.open("site/threejs.html")
         width, height = 60, 38
         true = self.browser.run(f"seen({width}, {height}, false)")
         blocks = self.browser.run("has('EXT_texture_compression_bptc')")
@@ -313,7 +237,7 @@ class ThreeJs(Delivered, served.Served):
                 link = self.out / format_
                 if not link.exists():
                     link.symlink_to(delivered_as(format_))
-                self.open(f"view.html?{format_}/lightmaps.json")
+                self.open(f"site/threejs.html?{format_}/lightmaps.json")
                 seen = self.browser.run(f"seen({width}, {height}, false)")
                 self.assertAlmostEqual(sum(seen) / sum(true), 1, delta=most)
                 off = sum(abs(a - b) for a, b in zip(seen, true)) / sum(true)
@@ -323,9 +247,7 @@ class ThreeJs(Delivered, served.Served):
             print("no BC6H in this browser: its pages are read by ktx-parse and OpenImageIO alone", file=sys.stderr)
 
     def test_the_page_shows_the_scene(self):
-        self.open("index.html")
-        self.assertEqual(self.browser.run("document.getElementById('said').textContent"), "")
-        self.assertEqual(self.problems(), [])
+        self.assert_page_shows_the_scene()
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 #include "pipeline/deliver/engines/engine_targets.h"
 
 #include "base/error.h"
+#include "pipeline/deliver/engines/babylon.h"
 #include "pipeline/deliver/engines/bevy.h"
 #include "pipeline/deliver/engines/gltf.h"
+#include "pipeline/deliver/engines/playcanvas.h"
 #include "pipeline/deliver/engines/threejs.h"
 
 #include <algorithm>
@@ -12,8 +14,10 @@ namespace rnmbake {
 const std::vector<const EngineTarget*>& engine_targets() {
   static const Gltf gltf;
   static const ThreeJs threejs;
+  static const PlayCanvas playcanvas;
+  static const Babylon babylon;
   static const Bevy bevy;
-  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &bevy};
+  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &playcanvas, &babylon, &bevy};
   return all;
 }
 

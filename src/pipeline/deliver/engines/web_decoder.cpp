@@ -1,5 +1,6 @@
 #include "pipeline/deliver/engines/web_decoder.h"
 
+#include "pipeline/deliver/engine_target.h"
 #include "shaders/engines.h"
 
 #include <algorithm>
@@ -24,6 +25,8 @@ constexpr std::array<WebDecoder, 9> decoders{{{"rnm-vrad", "rnm", "rnm_decode_sq
                                               {"h4", "hbasis", "h4_decode"},
                                               {"h6", "hbasis", "h6_decode"}}};
 
+constexpr const char* flat_light = "vec3 flat_light(vec3 light, vec3 n)\n{\n    return light;\n}\n";
+
 }  // namespace
 
 const std::vector<std::string>& web_encodings() {
@@ -36,10 +39,12 @@ const std::vector<std::string>& web_encodings() {
 }
 
 nlohmann::json web_decoder(const nlohmann::ordered_json& record) {
-  const auto* const found =
-      std::ranges::find(decoders, record.at("encoding").get<std::string>(), &WebDecoder::encoding);
+  const std::string encoding = record.at("encoding").get<std::string>();
   nlohmann::json layers = nlohmann::json::array();
   for (const auto& [layer, file] : record.at("pages").at(0).at("layers").items()) layers.push_back(layer);
+  if (encoding == EngineTarget::flat)
+    return {{"layers", std::move(layers)}, {"function", "flat_light"}, {"text", flat_light}};
+  const auto* const found = std::ranges::find(decoders, encoding, &WebDecoder::encoding);
   return {{"layers", std::move(layers)},
           {"function", found->function},
           {"text", shader_text(engine_named("glsl"), {found->shader})}};

@@ -8,7 +8,7 @@
 
 namespace rnmbake {
 
-/// Encodings that there is a decoder for, the best use of a bake's memory first.
+/// Directional encodings that there is a decoder for, the best use of a bake's memory first.
 [[nodiscard]] const std::vector<std::string>& web_encodings();
 
 /// Of a delivery's record with its pages. "layers": their names, in the order of the decoder's arguments;

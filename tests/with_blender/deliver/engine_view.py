@@ -1,0 +1,106 @@
+"""Deliveries to an engine, and what the engine's own package shows of them in headless Chromium against `rnmbake render`."""
+import functools
+import json
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
+import browser  # noqa: E402
+from harness import OK, rnmbake, run_blender  # noqa: E402
+import served  # noqa: E402
+
+PANELS = ROOT / "scenes" / "built" / "panels.blend"
+QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
+WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
+BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
+
+
+def deliver(engine, source, out, *flags):
+    return rnmbake("deliver", source, "--engine", engine, "-o", out, *QUICK, *flags)
+
+
+@functools.cache
+def delivered_once(engine):
+    """A temporary folder and the scene in it, delivered into site/."""
+    folder = tempfile.TemporaryDirectory(prefix="rnmbake-deliver-")
+    unittest.addModuleCleanup(folder.cleanup)
+    top = Path(folder.name)
+    scene = top / "panels.blend"
+    run_blender(HERE / "matt_scene.py", scene, scene=PANELS)
+    done = deliver(engine, scene, top / "site")
+    assert done.returncode == OK, done.stderr
+    return top, scene
+
+
+class Delivered(unittest.TestCase):
+    """All tests of an engine look at one delivery."""
+
+    ENGINE = "threejs"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.top, cls.scene = delivered_once(cls.ENGINE)
+        cls.out = cls.top / "site"
+        cls.maps = cls.out / ".lightmaps"
+        cls.record = json.loads((cls.out / "lightmaps.json").read_text())
+
+
+class EngineView(Delivered, served.Served):
+    """views/ENGINE.html in the delivery's folder, beside the engine's packages of npm."""
+
+    @classmethod
+    def setUpClass(cls):
+        browser.require()
+        super().setUpClass()
+        cls.modules = served.node_modules(cls.top, *served.ENGINES[cls.ENGINE])
+        cls.furnish(cls.out)
+        cls.serve(cls.top, 480, 270)
+
+    @classmethod
+    def furnish(cls, site):
+        (site / "node_modules").symlink_to(cls.modules)
+        for file in (f"{cls.ENGINE}.html", "coarser.js"):
+            shutil.copy(HERE / "views" / file, site)
+
+    def rendered(self, decode, maps):
+        """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
+        picture = self.top / f"{decode}.exr"
+        done = rnmbake("render", self.scene, "--lightmaps", maps, "--decode", decode, "-o", picture, "--resolution",
+                       f"{WIDTH}x{HEIGHT}", "--samples", "64", "-q")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(picture)], capture_output=True, text=True,
+                              check=True).stdout
+        rows = [list(map(float, line.split("):")[1].split())) for line in said.splitlines() if "Pixel (" in line]
+        self.assertEqual(len(rows), WIDTH * HEIGHT)
+        return [row[:3] for row in rows], [row[3] == 1 for row in rows]
+
+    def assert_same_view(self, decode, flat=False, site="site", maps=None):
+        """Over blocks of pixels that see nothing but surfaces, the mean of both is the same within 2 %."""
+        self.open(f"{site}/{self.ENGINE}.html")
+        seen = self.browser.run(f"seen({WIDTH}, {HEIGHT}, {str(flat).lower()})")
+        self.assertEqual(self.problems(), [])
+        expected, covered = self.rendered(decode, maps or self.maps)
+        compared, off = 0, []
+        for top in range(0, HEIGHT, BLOCK):
+            for left in range(0, WIDTH, BLOCK):
+                pixels = [(left + x, top + y) for y in range(BLOCK) for x in range(BLOCK)]
+                if not all(covered[y * WIDTH + x] for x, y in pixels):
+                    continue
+                mean = sum(sum(expected[y * WIDTH + x]) for x, y in pixels)
+                other = sum(sum(seen[3 * ((HEIGHT - 1 - y) * WIDTH + x):][:3]) for x, y in pixels)
+                compared += 1
+                if abs(other - mean) > .02 * mean:
+                    off.append((left, top, other / mean))
+        self.assertGreater(compared, 250)
+        self.assertLessEqual(len(off), .05 * compared, off[:20])
+
+    def assert_page_shows_the_scene(self):
+        self.open("site/index.html")
+        self.assertEqual(self.browser.run("document.getElementById('said').textContent"), "")
+        self.assertEqual(self.problems(), [])
