@@ -1,8 +1,8 @@
-"""docs/images/ENGINE.jpg: the panels scene, delivered to engines of the web, as headless Chromium shows the page.
+"""Pictures for docs/engines/: the panels scene, delivered to engines of the web, as headless Chromium shows the page.
 
-    python3 tools/dev/engine_pictures.py build/release/rnmbake docs/images [threejs playcanvas babylon]
+    python3 tools/dev/engine_pictures.py docs/images [threejs playcanvas babylon]
 
-RNMBAKE_NODE_MODULES names a node_modules folder with the packages of tests/report/served.py; without it npm fetches them.
+RNMBAKE_BINARY names another program than build/release/rnmbake, RNMBAKE_NODE_MODULES a node_modules folder with the packages of tests/report/served.py; without it npm fetches them.
 """
 import os
 from pathlib import Path
@@ -21,20 +21,21 @@ class Site(served.Served):
     """Pages of a folder, without tests."""
 
 
-def deliver(rnmbake, *words):
-    env = {name: value for name, value in os.environ.items() if name != "RNMBAKE_NODE_MODULES"}
+def deliver(*words):
+    rnmbake = os.environ.get("RNMBAKE_BINARY", ROOT / "build" / "release" / "rnmbake")
+    env = {name: value for name, value in os.environ.items() if name not in ("RNMBAKE_BINARY", "RNMBAKE_NODE_MODULES")}
     subprocess.run([rnmbake, "deliver", *map(str, words), "-q"], env=env, check=True)
 
 
 def main():
-    rnmbake, folder, *engines = sys.argv[1:]
+    folder, *engines = sys.argv[1:]
     with tempfile.TemporaryDirectory(prefix="rnmbake-pictures-") as made:
         top = Path(made)
         modules = served.node_modules(top, *(package for packages in served.ENGINES.values() for package in packages))
         Site.serve(top, WIDTH, HEIGHT)
         try:
             for engine in engines or served.ENGINES:
-                deliver(rnmbake, ROOT / "scenes" / "panels.toml", "--engine", engine, "-o", top / engine, "--lightmaps", top / "maps",
+                deliver(ROOT / "scenes" / "panels.toml", "--engine", engine, "-o", top / engine, "--lightmaps", top / "maps",
                         "--bake-engine", "embree", "--resolution", "128", "--samples", "64")
                 (top / engine / "node_modules").symlink_to(modules)
                 site = Site()
