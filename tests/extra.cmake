@@ -109,6 +109,8 @@ foreach(CLASS PlayCanvas Babylon)
   rnm_check(deliver.${CLASS} blender 1200 with_blender/deliver/web_engines ARGS ${CLASS})
   set_tests_properties(deliver.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 endforeach()
+rnm_check(deliver.Engines blender 1200 with_blender/deliver/engines)
+set_tests_properties(deliver.Engines PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)

@@ -9,3 +9,8 @@ file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_LIST_DIR}/deliver/eng
      ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped/*)
 list(SORT NAMES)
 rnm_embed(embedded_engine_files ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped ROOM_SOURCES ${NAMES})
+
+# What goes with a delivery to Unity.
+file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/engines/unity ${CMAKE_SOURCE_DIR}/engines/unity/*.*)
+list(SORT NAMES)
+rnm_embed(embedded_unity_files ${CMAKE_SOURCE_DIR}/engines/unity ROOM_SOURCES ${NAMES})

@@ -30,7 +30,8 @@ def node_modules(folder, *packages):
         skip(f"no npm to fetch {', '.join(packages)} with; install the package npm")
     # Two attempts of ten seconds for each of two files at most.
     outcome = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1",
-                              "--fetch-timeout=10000", "--fetch-retry-maxtimeout=1000", *packages],
+                              "--fetch-timeout=10000", "--fetch-retry-mintimeout=500", "--fetch-retry-maxtimeout=1000",
+                              "--legacy-peer-deps", *packages],
                              cwd=folder, timeout=120, capture_output=True, text=True)
     if outcome.returncode:
         skip(f"npm cannot fetch {', '.join(packages)}: {outcome.stderr.strip().splitlines()[-1:]}")

@@ -95,7 +95,9 @@ class EngineDelivery {
   }
 
   DeliverySummary make() {
-    summary_.layout = lay_out_pages(folder_, options_.pages);
+    PageLimits limits = options_.pages;
+    limits.alike = target_.pages_alike();
+    summary_.layout = lay_out_pages(folder_, limits);
     write_encoded_pages();
     write_flat_pictures();
     write_scene();

@@ -23,6 +23,9 @@ class DeliveryFiles {
   [[nodiscard]] std::filesystem::path add(const std::string& name);
   void add(const std::string& name, std::string_view text);
 
+  /// Where a file that was added lies until it is put in place.
+  [[nodiscard]] std::filesystem::path made(const std::string& name) const { return making_ / name; }
+
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Puts all files into the folder, `record` last, whose "files" names them; removes those that an earlier

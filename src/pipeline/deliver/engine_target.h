@@ -37,6 +37,9 @@ class EngineTarget {
   /// Layers along Blender's world axes rather than in tangent space; bakes then need --frames.
   [[nodiscard]] virtual bool in_world() const { return false; }
 
+  /// All pages have the size of the largest.
+  [[nodiscard]] virtual bool pages_alike() const { return false; }
+
   /// Formats of pages that users may choose of, the first where they do not; none where write_page() knows
   /// what the engine reads.
   [[nodiscard]] virtual const std::vector<PageFormat>& formats() const;

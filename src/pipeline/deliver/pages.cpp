@@ -47,6 +47,13 @@ void copy_covered(const FloatImage& from, const FloatImage& coverage, const Page
   }
 }
 
+void make_alike(std::vector<RectSize>& pages) {
+  RectSize all{0, 0};
+  for (const RectSize& page : pages)
+    all = {std::max(all.width, page.width), std::max(all.height, page.height)};
+  std::ranges::fill(pages, all);
+}
+
 }  // namespace
 
 Imath::V2d PagedMap::scale(RectSize page_size) const {
@@ -86,6 +93,7 @@ PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits)
   }
   const AtlasPlan plan = pack_pages(boxes, limits.side);
   layout.pages = plan.atlases;
+  if (limits.alike) make_alike(layout.pages);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     layout.maps[i].page = plan.placements[i].atlas;
     layout.maps[i].x = plan.placements[i].x;

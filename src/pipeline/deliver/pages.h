@@ -27,8 +27,9 @@ struct PagedMap {
 };
 
 struct PageLimits {
-  int side = 4096;  // texels
-  int padding = 4;  // texels around each map that are filled from it
+  int side = 4096;     // texels
+  int padding = 4;     // texels around each map that are filled from it
+  bool alike = false;  // all pages get the size of the largest
 };
 
 struct PageLayout {

@@ -4,8 +4,10 @@
 #include "pipeline/deliver/engines/babylon.h"
 #include "pipeline/deliver/engines/bevy.h"
 #include "pipeline/deliver/engines/gltf.h"
+#include "pipeline/deliver/engines/godot.h"
 #include "pipeline/deliver/engines/playcanvas.h"
 #include "pipeline/deliver/engines/threejs.h"
+#include "pipeline/deliver/engines/unity.h"
 
 #include <algorithm>
 
@@ -17,7 +19,10 @@ const std::vector<const EngineTarget*>& engine_targets() {
   static const PlayCanvas playcanvas;
   static const Babylon babylon;
   static const Bevy bevy;
-  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &playcanvas, &babylon, &bevy};
+  static const Godot godot;
+  static const Unity unity;
+  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &playcanvas, &babylon,
+                                                    &bevy, &godot,   &unity};
   return all;
 }
 

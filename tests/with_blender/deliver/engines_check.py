@@ -1,0 +1,221 @@
+"""Lightmaps through `rnmbake deliver` to engines: pages decoded by each engine's formula along its own axes against the bakes,
+files read as the engine reads them, and Godot itself where its build for the web can be had.
+
+    RNMBAKE_BINARY=build/release/rnmbake python3 tests/with_blender/deliver/engines_check.py
+
+RNMBAKE_NODE_MODULES names a node_modules folder that holds Godot's build (godot_run.PACKAGE); without it npm fetches it.
+"""
+import functools
+import json
+from pathlib import Path
+import re
+import sys
+import tempfile
+import unittest
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "report")]
+import godot_run  # noqa: E402
+from harness import OK, UNSUPPORTED, rnmbake, run_blender  # noqa: E402
+from page_light import covered_texels, read_picture  # noqa: E402
+
+PATHS = ["../Scene/floor", "../Scene/box_001", "../Scene/ball", "../Scene/group_ right/panel"]
+BAKE = ("--engine", "embree", "--resolution", "48", "--samples", "16", "--bounces", "1", "--save-scene", "always", "-q")
+
+
+@functools.cache
+def top():
+    folder = tempfile.TemporaryDirectory(prefix="rnmbake-engines-")
+    unittest.addModuleCleanup(folder.cleanup)
+    return Path(folder.name)
+
+
+@functools.cache
+def baked():
+    """The scene of axes_scene.py, and its lightmaps with frames."""
+    scene, maps = top() / "axes.blend", top() / "maps"
+    run_blender(HERE / "axes_scene.py", scene)
+    done = rnmbake("bake", scene, "-o", maps, "--frames", "--dilate", "4", *BAKE)
+    assert done.returncode == OK, done.stderr
+    return scene, maps
+
+
+@functools.cache
+def same_names():
+    """Without frames, with two objects whose names become one where . and _ are the same."""
+    scene, maps = top() / "names.blend", top() / "names"
+    run_blender(HERE / "axes_scene.py", scene, "box.a", "box_a")
+    done = rnmbake("bake", scene, "-o", maps, *BAKE, "--resolution", "16", "--samples", "1", "--objects", "box*")
+    assert done.returncode == OK, done.stderr
+    return maps
+
+
+@functools.cache
+def delivered(engine, *flags):
+    out = top() / "-".join((engine, *flags))
+    done = rnmbake("deliver", baked()[1], "--engine", engine, "-o", out, "-q", *flags)
+    assert done.returncode == OK, done.stderr
+    return out
+
+
+class Engine(unittest.TestCase):
+    def assert_bakes(self, decode, delivery, tolerance, to_engine, fits, mean=False):
+        """decode(texel, normal): E/pi for a normal along the engine's axes. The flat bake comes back everywhere, those of
+        tilted normals where the packing has room for them (`fits`), which is so in most texels."""
+        texels = covered_texels(delivery, baked()[1])
+        if mean:
+            for texel in texels:
+                texel.baked = {name: (normal, [sum(light) / 3] * 3) for name, (normal, light) in texel.baked.items()}
+        self.assertGreater(len(texels), 3000)
+        whole = 0
+        for texel in texels:
+            room = fits(texel)
+            whole += room
+            for name, (normal, light) in texel.baked.items():
+                if room or name == "flat":
+                    near = tolerance * max(texel.baked["flat"][1]) + 1e-3
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(decode(texel, to_engine(normal)), light)), near,
+                                         (name, texel.page, texel.x, texel.y))
+        self.assertGreater(whole / len(texels), .5)
+
+    def refused(self, engine, *words, flags=()):
+        done = rnmbake("deliver", same_names(), "--engine", engine, "-o", top() / "refused", "-q", *flags)
+        self.assertEqual(done.returncode, UNSUPPORTED, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        self.assertFalse((top() / "refused" / "lightmaps.json").exists())
+
+
+def import_file(path):
+    """Sections of Godot's ConfigFile: values are Godot's, of which these are numbers, words and truths."""
+    sections, section = {}, None
+    for line in path.read_text().splitlines():
+        if line.startswith("["):
+            section = sections.setdefault(line.strip("[]"), {})
+        elif line:
+            name, _, value = line.partition("=")
+            section[name] = json.loads(value)
+    return sections
+
+
+class Godot(Engine):
+    @staticmethod
+    def to_godot(normal):
+        return [normal[0], normal[2], -normal[1]]
+
+    def test_pages_decode_to_the_bakes(self):
+        """Godot's shader: L0 + 4 L0 (2 t - 1) . n, slices L0, t of y, z and x."""
+        out = delivered("godot")
+        record = json.loads((out / "lightmaps.json").read_text())
+        pages = [read_picture(out / page["layers"]["l0"]) for page in record["pages"]]
+
+        def decode(texel, normal):
+            height = pages[texel.page][1] // 4
+            l0, ty, tz, tx = (pages[texel.page][2][slice_ * height + texel.y][texel.x] for slice_ in range(4))
+            return [l0[c] * (1 + 4 * sum(n * (2 * t[c] - 1) for n, t in zip(normal, (tx, ty, tz)))) for c in "RGB"]
+
+        self.assertEqual(pages[0][1], 4 * record["pages"][0]["height"])
+        self.assert_bakes(decode, out, .01, self.to_godot, lambda texel: texel.fits(4))
+
+    def test_pages_have_one_size(self):
+        record = json.loads((delivered("godot", "--pages", "64") / "lightmaps.json").read_text())
+        self.assertGreater(len(record["pages"]), 1)
+        self.assertEqual(len({(page["width"], page["height"]) for page in record["pages"]}), 1)
+
+    def test_godot_is_told_how_to_import(self):
+        out = delivered("godot")
+        page = import_file(out / "page0.exr.import")
+        self.assertEqual(page["remap"], {"importer": "2d_array_texture", "type": "CompressedTexture2DArray"})
+        self.assertEqual({name: page["params"][name] for name in ("mipmaps/generate", "slices/horizontal", "slices/vertical")},
+                         {"mipmaps/generate": False, "slices/horizontal": 1, "slices/vertical": 4})
+        self.assertEqual(import_file(out / "scene.glb.import")["params"]["meshes/light_baking"], 1)
+
+    def test_flat_light_is_one_slice(self):
+        out = delivered("godot", "--encoding", "flat")
+        record = json.loads((out / "lightmaps.json").read_text())
+        self.assertEqual(read_picture(out / "page0.exr")[1], record["pages"][0]["height"])
+        self.assertEqual(import_file(out / "page0.exr.import")["params"]["slices/vertical"], 1)
+        self.assertIn("uses_spherical_harmonics = false", (out / "lightmaps.tres").read_text())
+
+    def test_paths_are_godots(self):
+        users = re.findall(r'NodePath\("([^"]*)"\)', (delivered("godot") / "lightmaps.tres").read_text())
+        self.assertEqual(users, PATHS)
+
+    def test_refusals(self):
+        self.refused("godot", "--frames")
+        self.refused("godot", "'box.a'", "'box_a'", flags=("--encoding", "flat"))
+
+
+class Unity(Engine):
+    @staticmethod
+    def to_unity(normal):
+        return [-normal[0], normal[2], -normal[1]]
+
+    def test_pages_decode_to_the_bakes(self):
+        """MonoSH: L0 (1 + 2 (2 t - 1) . n), one t for all colours, in 8 bits: 2 % of the flat light. The mean of the colours is
+        what was packed; the flat bake has its own colours."""
+        out = delivered("unity")
+        record = json.loads((out / "lightmaps.json").read_text())
+        pages = [[read_picture(out / page["layers"][layer])[2] for layer in ("l0", "dir")] for page in record["pages"]]
+
+        def decode(texel, normal):
+            l0, t = (layer[texel.y][texel.x] for layer in pages[texel.page])
+            return [l0[c] * (1 + 2 * sum(n * (2 * t[axis] - 1) for n, axis in zip(normal, "RGB"))) for c in "RGB"]
+
+        def mean(texel, normal):
+            return [sum(decode(texel, normal)) / 3] * 3
+
+        for texel in covered_texels(out, baked()[1]):
+            normal, light = texel.baked["flat"]
+            for got, expected in zip(decode(texel, self.to_unity(normal)), light):
+                self.assertLessEqual(abs(got - expected), .01 * max(light) + 1e-3)
+        self.assert_bakes(mean, out, .02, self.to_unity, lambda texel: texel.fits(2, mean=True), mean=True)
+
+    def test_pictures_have_their_meta(self):
+        out, again = delivered("unity"), delivered("unity", "--encoding", "zh3")
+        for name, kind in (("page0.l0.exr", 6), ("page0.dir.png", 0)):
+            text = (out / (name + ".meta")).read_text()
+            self.assertRegex(text, r"(?m)^guid: [0-9a-f]{32}$")
+            for setting in ("sRGBTexture: 0", "enableMipMap: 0", "wrapU: 1", f"textureType: {kind}", "textureCompression: 2"):
+                self.assertRegex(text, rf"(?m)^ +{setting}$")
+            self.assertEqual(text, (again / (name + ".meta")).read_text())
+
+    def test_the_component_and_a_decoder_come_along(self):
+        out = delivered("unity")
+        for name in ("RnmbakeLightmaps.cs", "RnmbakeLightmapsMenu.cs"):
+            self.assertEqual((out / name).read_text(), (HERE.parents[2] / "engines" / "unity" / name).read_text())
+        self.assertIn("rnmbake_unity_monosh(", (out / "rnmbake_sh2.cginc").read_text())
+
+    def test_a_bake_without_frames(self):
+        self.refused("unity", "--frames")
+
+
+class RunningGodot(godot_run.Godot):
+    """Godot 4.6 in Chromium. Its importer is in its editor alone: godot_check.gd stands in for it."""
+
+    def test_it_shows_what_render_shows(self):
+        scene, maps = baked()
+        shown = self.show(delivered("godot"))
+        self.assertEqual(shown.users, [[path, "MeshInstance3D"] for path in PATHS])
+        encoded, picture = top() / "encoded", top() / "view.exr"
+        for words in (("convert", maps, "--to", "sh2", "--range", "4", "-o", encoded, "-q"),
+                      ("render", scene, "--lightmaps", encoded, "--decode", "encoded", "-o", picture, "--resolution",
+                       f"{shown.width}x{shown.height}", "--samples", "64", "-q")):
+            done = rnmbake(*words)
+            self.assertEqual(done.returncode, OK, done.stderr)
+        width, height, rows = read_picture(picture)
+        off = compared = 0
+        for y in range(0, height - 9, 10):
+            for x in range(0, width - 9, 10):
+                block = [(x + i, y + j) for i in range(10) for j in range(10)]
+                if all(rows[j][i]["coverage"] == 1 for i, j in block):
+                    expected = sum(rows[j][i][c] for i, j in block for c in "RGB")
+                    compared += 1
+                    off += abs(sum(sum(shown.light(i, j)) for i, j in block) - expected) > .02 * expected
+        self.assertGreater(compared, 100)
+        self.assertLessEqual(off, .3 * compared, f"{off} of {compared}")  # at edges of shadows and objects
+
+
+if __name__ == "__main__":
+    unittest.main()
