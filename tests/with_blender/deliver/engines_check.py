@@ -59,24 +59,27 @@ def delivered(engine, *flags):
 
 
 class Engine(unittest.TestCase):
-    def assert_bakes(self, decode, delivery, tolerance, to_engine, fits, mean=False):
+    def assert_bakes(self, decode, delivery, tolerance, to_engine, fits, share):
         """decode(texel, normal): E/pi for a normal along the engine's axes. The flat bake comes back everywhere, those of
-        tilted normals where the packing has room for them (`fits`), which is so in most texels."""
+        tilted normals where the packing has room for them (`fits`), in that share of the texels at least. The tolerance is
+        one of the texel's brightest bake."""
         texels = covered_texels(delivery, baked()[1])
-        if mean:
-            for texel in texels:
-                texel.baked = {name: (normal, [sum(light) / 3] * 3) for name, (normal, light) in texel.baked.items()}
         self.assertGreater(len(texels), 3000)
         whole = 0
         for texel in texels:
             room = fits(texel)
             whole += room
+            near = tolerance * max(max(self.packed(light)) for _, light in texel.baked.values()) + 1e-3
             for name, (normal, light) in texel.baked.items():
                 if room or name == "flat":
-                    near = tolerance * max(texel.baked["flat"][1]) + 1e-3
-                    self.assertLessEqual(max(abs(a - b) for a, b in zip(decode(texel, to_engine(normal)), light)), near,
-                                         (name, texel.page, texel.x, texel.y))
-        self.assertGreater(whole / len(texels), .5)
+                    off = max(abs(a - b) for a, b in zip(self.packed(decode(texel, to_engine(normal))), self.packed(light)))
+                    self.assertLessEqual(off, near, (name, texel.page, texel.x, texel.y))
+        self.assertGreater(whole / len(texels), share)
+
+    @staticmethod
+    def packed(light):
+        """What of R, G and B the encoding keeps for tilted normals."""
+        return light
 
     def refused(self, engine, *words, flags=()):
         done = rnmbake("deliver", same_names(), "--engine", engine, "-o", top() / "refused", "-q", *flags)
@@ -116,7 +119,7 @@ class Godot(Engine):
             return [l0[c] * (1 + 4 * sum(n * (2 * t[c] - 1) for n, t in zip(normal, (tx, ty, tz)))) for c in "RGB"]
 
         self.assertEqual(pages[0][1], 4 * record["pages"][0]["height"])
-        self.assert_bakes(decode, out, .01, self.to_godot, lambda texel: texel.fits(4))
+        self.assert_bakes(decode, out, .005, self.to_godot, lambda texel: texel.fits(4), .5)
 
     def test_pages_have_one_size(self):
         record = json.loads((delivered("godot", "--pages", "64") / "lightmaps.json").read_text())
@@ -152,9 +155,12 @@ class Unity(Engine):
     def to_unity(normal):
         return [-normal[0], normal[2], -normal[1]]
 
+    @staticmethod
+    def packed(light):
+        return [sum(light) / 3]
+
     def test_pages_decode_to_the_bakes(self):
-        """MonoSH: L0 (1 + 2 (2 t - 1) . n), one t for all colours, in 8 bits: 2 % of the flat light. The mean of the colours is
-        what was packed; the flat bake has its own colours."""
+        """MonoSH: L0 (1 + 2 (2 t - 1) . n), one t for all colours, in 8 bits. The flat bake has its own colours."""
         out = delivered("unity")
         record = json.loads((out / "lightmaps.json").read_text())
         pages = [[read_picture(out / page["layers"][layer])[2] for layer in ("l0", "dir")] for page in record["pages"]]
@@ -163,14 +169,11 @@ class Unity(Engine):
             l0, t = (layer[texel.y][texel.x] for layer in pages[texel.page])
             return [l0[c] * (1 + 2 * sum(n * (2 * t[axis] - 1) for n, axis in zip(normal, "RGB"))) for c in "RGB"]
 
-        def mean(texel, normal):
-            return [sum(decode(texel, normal)) / 3] * 3
-
         for texel in covered_texels(out, baked()[1]):
             normal, light = texel.baked["flat"]
             for got, expected in zip(decode(texel, self.to_unity(normal)), light):
                 self.assertLessEqual(abs(got - expected), .01 * max(light) + 1e-3)
-        self.assert_bakes(mean, out, .02, self.to_unity, lambda texel: texel.fits(2, mean=True), mean=True)
+        self.assert_bakes(decode, out, .02, self.to_unity, lambda texel: texel.fits(2, mean=True), .2)
 
     def test_pictures_have_their_meta(self):
         out, again = delivered("unity"), delivered("unity", "--encoding", "zh3")

@@ -10,14 +10,16 @@ BASES = {"rnm0": (math.sqrt(2 / 3), 0, 1 / math.sqrt(3)),
 
 
 def read_picture(file):
-    """Width, height, rows of pixels from the top, each a dict by channel."""
+    """Width, height, rows of pixels from the top, each a dict by channel; of 8 bits in [0, 1]."""
+    largest = 255 if Path(file).suffix == ".png" else 1
     said = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", str(file)], capture_output=True, text=True, check=True).stdout
     channels, size, pixels = None, None, []
     for line in said.splitlines():
         if "channel list:" in line:
             channels = line.split(":", 1)[1].split(", ")
         elif "Pixel (" in line:
-            pixels.append(dict(zip((one.strip() for one in channels), map(float, line.split("):")[1].split()))))
+            values = [float(word) / largest for word in line.split("):")[1].split()]
+            pixels.append(dict(zip(map(str.strip, channels), values)))
         elif size is None and " x " in line and "channel" in line:
             words = line.split(" : ")[1].split(",")[0].split("x")
             size = int(words[0]), int(words[1])
