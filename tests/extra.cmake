@@ -39,7 +39,7 @@ foreach(CHECK accuracy tracing volumes)
 endforeach()
 
 # What scripts for Blender do without it.
-foreach(CHECK keys gltf)
+foreach(CHECK keys gltf lightmaps)
   add_test(NAME scripts.${CHECK}
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/scripts/${CHECK}_check.py)
   set_tests_properties(scripts.${CHECK} PROPERTIES LABELS unit TIMEOUT 300)
@@ -106,7 +106,7 @@ endforeach()
 rnm_check(deliver.check blender 1200 with_blender/deliver/deliver)
 set_tests_properties(deliver.check PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 foreach(CLASS PlayCanvas Babylon)
-  rnm_check(deliver.${CLASS} blender 1200 with_blender/deliver/web_engines ARGS ${CLASS})
+  rnm_check(deliver.${CLASS} "blender;long" 1200 with_blender/deliver/web_engines ARGS ${CLASS})
   set_tests_properties(deliver.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 endforeach()
 rnm_check(deliver.Engines blender 1200 with_blender/deliver/engines)

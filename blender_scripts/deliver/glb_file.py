@@ -54,7 +54,8 @@ class Glb:
 def add_lightmaps(glb, request, node_property):
     """The pages as textures, and for each node with a lightmap its record and materials of its page. Returns for each
     of the request's objects {"node", "name", "mesh"}, or None where the exporter has left it out."""
-    nodes, materials = [None] * len(request["objects"]), PageMaterials(glb, request)
+    lit = {node.get("mesh") for node in glb.json.get("nodes", []) if node_property in node.get("extras", {})}
+    nodes, materials = [None] * len(request["objects"]), PageMaterials(glb, request, materials_of_others(glb, lit))
     for index, node in enumerate(glb.json.get("nodes", [])):
         number = node.get("extras", {}).get(node_property)
         node.pop("extras", None)  # custom properties are the user's own, and Blender's
@@ -72,6 +73,12 @@ def add_lightmaps(glb, request, node_property):
     return nodes
 
 
+def materials_of_others(glb, lit):
+    """Those that meshes without a lightmap use."""
+    others = (mesh for index, mesh in enumerate(glb.json.get("meshes", [])) if index not in lit)
+    return {primitive["material"] for mesh in others for primitive in mesh["primitives"] if "material" in primitive}
+
+
 def make_matt(material):
     """The exporter gives a surface without specular light a black specular colour, and engines still take away from its
     diffuse light what a dielectric reflects at grazing angles."""
@@ -81,9 +88,9 @@ def make_matt(material):
 
 
 class PageMaterials:
-    """Materials with a page's lightmap; one that is used on several pages is copied."""
+    """Materials with a page's lightmap; one that is used on several pages, or without one (`others`), is copied."""
 
-    def __init__(self, glb, request):
+    def __init__(self, glb, request, others):
         self._glb = glb
         sampler = glb.add("samplers", {"magFilter": LINEAR, "minFilter": LINEAR, "wrapS": CLAMP, "wrapT": CLAMP})
         images = [glb.add_picture(path, f"lightmap {page}") for page, path in enumerate(request["pages"])]
@@ -91,7 +98,7 @@ class PageMaterials:
                             "intensity": request["intensity"]} for image in images]
         self._made = {}
         self._plain = [copy.deepcopy(material) for material in glb.json.get("materials", [])]
-        self._taken = set()
+        self._taken = set(others)
 
     def give(self, mesh, page):
         for primitive in mesh["primitives"]:
@@ -104,7 +111,7 @@ class PageMaterials:
         return self._made[key]
 
     def _make(self, material, page):
-        """The material itself for the first page that it is on."""
+        """The material itself for the first page that it is on, unless it is somebody else's, too."""
         lit = copy.deepcopy(DEFAULT_MATERIAL if material is None else self._plain[material])
         make_matt(lit)
         lit.setdefault("extensions", {})[EXTENSION] = self._lightmaps[page]
