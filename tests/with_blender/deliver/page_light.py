@@ -18,7 +18,8 @@ def read_picture(file):
         if "channel list:" in line:
             channels = line.split(":", 1)[1].split(", ")
         elif "Pixel (" in line:
-            values = [float(word) / largest for word in line.split("):")[1].split()]
+            numbers = line.split("):")[1].split("(")[0]  # what follows in brackets are the same, of 8 bits in [0, 1]
+            values = [float(word) / largest for word in numbers.split()]
             pixels.append(dict(zip(map(str.strip, channels), values)))
         elif size is None and " x " in line and "channel" in line:
             words = line.split(" : ")[1].split(",")[0].split("x")
