@@ -29,6 +29,13 @@ std::string roff(const std::string& text) {
   return out;
 }
 
+/// "exr|hdr|png", which may go on in another line behind each bar.
+std::string choices(const std::string& value) {
+  std::string out;
+  for (const char letter : roff(value)) out += letter == '|' ? "|\\:" : std::string(1, letter);
+  return out;
+}
+
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char letter) { return std::toupper(letter); });
   return text;
@@ -71,7 +78,7 @@ std::string entry(const FlagEntry& flag, bool is_argument) {
   std::vector<std::string> names;
   for (const std::string& name : flag.names)
     names.push_back(fmt::format("\\f{}{}\\fR", is_argument ? 'I' : 'B', roff(name)));
-  const std::string value = flag.value.empty() ? "" : fmt::format(" \\fI{}\\fR", roff(flag.value));
+  const std::string value = flag.value.empty() ? "" : fmt::format(" \\fI{}\\fR", choices(flag.value));
   std::string help = roff(flag.help);
   return fmt::format(".TP\n{}{}\n{}\n", fmt::join(names, ", "), value, help);
 }
