@@ -3,7 +3,6 @@ import functools
 import json
 from pathlib import Path
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -13,12 +12,12 @@ ROOT = HERE.parents[2]
 sys.path[:0] = [str(HERE.parent), str(ROOT / "tests" / "report")]
 import browser  # noqa: E402
 from harness import OK, rnmbake, run_blender  # noqa: E402
+from pictures import read_picture, unlike_blocks  # noqa: E402
 import served  # noqa: E402
 
 PANELS = ROOT / "scenes" / "built" / "panels.blend"
 QUICK = ("--bake-engine", "embree", "--resolution", "48", "--samples", "4", "--bounces", "1", "-q")
 WIDTH, HEIGHT = 240, 150  # the aspect of the scene's camera
-BLOCK = 10  # pixels along a side of what is compared: both ways of anti-aliasing agree over such
 
 
 def deliver(engine, source, out, *flags):
@@ -69,34 +68,25 @@ class EngineView(Delivered, served.Served):
             shutil.copy(HERE / "views" / file, site)
 
     def rendered(self, decode, maps):
-        """RGB of each pixel of `rnmbake render`, rows from the top, and where it sees a surface."""
+        """What `rnmbake render` makes of the view."""
         picture = self.top / f"{decode}.exr"
         done = rnmbake("render", self.scene, "--lightmaps", maps, "--decode", decode, "-o", picture, "--resolution",
                        f"{WIDTH}x{HEIGHT}", "--samples", "64", "-q")
         self.assertEqual(done.returncode, OK, done.stderr)
-        said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(picture)], capture_output=True, text=True,
-                              check=True).stdout
-        rows = [list(map(float, line.split("):")[1].split())) for line in said.splitlines() if "Pixel (" in line]
-        self.assertEqual(len(rows), WIDTH * HEIGHT)
-        return [row[:3] for row in rows], [row[3] == 1 for row in rows]
+        read = read_picture(picture)
+        self.assertEqual(read[:2], (WIDTH, HEIGHT))
+        return read
 
     def assert_same_view(self, decode, flat=False, site="site", maps=None):
         """Over blocks of pixels that see nothing but surfaces, the mean of both is the same within 2 %."""
         self.open(f"{site}/{self.ENGINE}.html")
         seen = self.browser.run(f"seen({WIDTH}, {HEIGHT}, {str(flat).lower()})")
         self.assertEqual(self.problems(), [])
-        expected, covered = self.rendered(decode, maps or self.maps)
-        compared, off = 0, []
-        for top in range(0, HEIGHT, BLOCK):
-            for left in range(0, WIDTH, BLOCK):
-                pixels = [(left + x, top + y) for y in range(BLOCK) for x in range(BLOCK)]
-                if not all(covered[y * WIDTH + x] for x, y in pixels):
-                    continue
-                mean = sum(sum(expected[y * WIDTH + x]) for x, y in pixels)
-                other = sum(sum(seen[3 * ((HEIGHT - 1 - y) * WIDTH + x):][:3]) for x, y in pixels)
-                compared += 1
-                if abs(other - mean) > .02 * mean:
-                    off.append((left, top, other / mean))
+        def light(x, y):  # rows of the browser run from the bottom
+            first = 3 * ((HEIGHT - 1 - y) * WIDTH + x)
+            return seen[first:first + 3]
+
+        compared, off = unlike_blocks(self.rendered(decode, maps or self.maps), light)
         self.assertGreater(compared, 250)
         self.assertLessEqual(len(off), .05 * compared, off[:20])
 

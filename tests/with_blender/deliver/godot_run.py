@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 import browser
-from page_light import read_picture
+from pictures import read_picture
 import served
 
 HERE = Path(__file__).resolve().parent

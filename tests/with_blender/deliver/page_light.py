@@ -2,30 +2,12 @@
 import json
 import math
 from pathlib import Path
-import subprocess
+
+from pictures import read_picture
 
 BASES = {"rnm0": (math.sqrt(2 / 3), 0, 1 / math.sqrt(3)),
          "rnm1": (-1 / math.sqrt(6), 1 / math.sqrt(2), 1 / math.sqrt(3)),
          "rnm2": (-1 / math.sqrt(6), -1 / math.sqrt(2), 1 / math.sqrt(3))}
-
-
-def read_picture(file):
-    """Width, height, rows of pixels from the top, each a dict by channel; of 8 bits in [0, 1]."""
-    largest = 255 if Path(file).suffix == ".png" else 1
-    said = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", str(file)], capture_output=True, text=True, check=True).stdout
-    channels, size, pixels = None, None, []
-    for line in said.splitlines():
-        if "channel list:" in line:
-            channels = line.split(":", 1)[1].split(", ")
-        elif "Pixel (" in line:
-            numbers = line.split("):")[1].split("(")[0]  # what follows in brackets are the same, of 8 bits in [0, 1]
-            values = [float(word) / largest for word in numbers.split()]
-            pixels.append(dict(zip(map(str.strip, channels), values)))
-        elif size is None and " x " in line and "channel" in line:
-            words = line.split(" : ")[1].split(",")[0].split("x")
-            size = int(words[0]), int(words[1])
-    width, height = size
-    return width, height, [pixels[y * width:(y + 1) * width] for y in range(height)]
 
 
 def colour(pixel, layer=""):

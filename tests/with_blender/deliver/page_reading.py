@@ -8,6 +8,8 @@ from pathlib import Path
 import struct
 import subprocess
 
+from pictures import read_picture
+
 # Zstandard by what three.js ships, so that node needs none of its own.
 PARSE = """
 import fs from 'fs'; import { pathToFileURL as url } from 'url';
@@ -39,8 +41,7 @@ def parse_ktx2(modules, file):
 
 def picture(file):
     """Of an EXR, Radiance's picture or DDS file."""
-    said = subprocess.run(["oiiotool", "--info", "--dumpdata", str(file)], capture_output=True, text=True, check=True).stdout
-    return [tuple(map(float, line.split("):")[1].split()[:3])) for line in said.splitlines() if "Pixel (" in line]
+    return [tuple(pixel[channel] for channel in "RGB") for row in read_picture(file)[2] for pixel in row]
 
 
 def level_texels(parsed, level, folder):
