@@ -33,36 +33,13 @@ namespace rnmbake {
 namespace {
 
 /// Settings that matter for probes.
-constexpr std::array probes_settings{"samples",
-                                     "seed",
-                                     "clamp",
-                                     "bounces",
-                                     "device",
-                                     "materials",
-                                     "allow_dark",
-                                     "allow_scripts",
-                                     "atlas_limit",
-                                     "memory_limit",
-                                     "blender",
-                                     "scripts",
-                                     "blender_version",
-                                     "threads",
-                                     "timeout",
-                                     "retries",
-                                     "launch_timeout",
-                                     "memory_max",
-                                     "sandbox",
-                                     "sandbox_read",
-                                     "keep_temporary",
-                                     "scene",
-                                     "view_layer",
-                                     "frame",
+constexpr std::array probes_settings{
+    "samples",         "seed",          "clamp",        "bounces",        "device",         "materials",
+    "allow_dark",      "allow_scripts", "atlas_limit",  "memory_limit",   "blender",        "scripts",
+    "blender_version", "threads",       "timeout",      "retries",        "launch_timeout",
 
-                                     "sky",
-                                     "sun",
-                                     "cache",
-                                     "cache_limit",
-                                     "lock_wait"};
+    "memory_max",      "sandbox",       "sandbox_read", "keep_temporary", "scene",          "view_layer",
+    "frame",           "sky",           "sun",          "cache",          "cache_limit",    "lock_wait"};
 
 std::string format_names() {
   std::string names;

@@ -1,16 +1,8 @@
-# What goes with a delivery for the web travels inside the binary.
+# What goes with a delivery to an engine travels inside the binary (deliver/engines/shipped_files.h).
 include(Embed)
-foreach(ENGINE threejs playcanvas babylon)
-  file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/web/${ENGINE} ${CMAKE_SOURCE_DIR}/web/${ENGINE}/*.*)
+foreach(FOLDER web/threejs web/playcanvas web/babylon engines/unity engines/bevy)
+  file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/${FOLDER} ${CMAKE_SOURCE_DIR}/${FOLDER}/*.*)
   list(SORT NAMES)
-  rnm_embed(embedded_${ENGINE}_files ${CMAKE_SOURCE_DIR}/web/${ENGINE} ROOM_SOURCES ${NAMES})
+  get_filename_component(ENGINE ${FOLDER} NAME)
+  rnm_embed(embedded_${ENGINE}_files ${CMAKE_SOURCE_DIR}/${FOLDER} ROOM_SOURCES ${NAMES})
 endforeach()
-file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped
-     ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped/*)
-list(SORT NAMES)
-rnm_embed(embedded_engine_files ${CMAKE_CURRENT_LIST_DIR}/deliver/engines/shipped ROOM_SOURCES ${NAMES})
-
-# What goes with a delivery to Unity.
-file(GLOB NAMES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/engines/unity ${CMAKE_SOURCE_DIR}/engines/unity/*.*)
-list(SORT NAMES)
-rnm_embed(embedded_unity_files ${CMAKE_SOURCE_DIR}/engines/unity ROOM_SOURCES ${NAMES})

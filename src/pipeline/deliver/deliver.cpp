@@ -98,8 +98,9 @@ class EngineDelivery {
     PageLimits limits = options_.pages;
     limits.alike = target_.pages_alike();
     summary_.layout = lay_out_pages(folder_, limits);
-    write_encoded_pages();
-    write_flat_pictures();
+    const std::vector<Page> flat = flat_pages();
+    write_encoded_pages(flat);
+    write_flat_pictures(flat);
     write_scene();
     target_.add_files(files_, record_);
     summary_.written = files_.put_into(session_.settings().output.dir, std::move(record_));
@@ -114,10 +115,22 @@ class EngineDelivery {
     if (progress_) progress_(share, what);
   }
 
-  void write_encoded_pages() {
-    LightmapFolder source = folder_;
-    std::vector<std::string> layers{""};
-    if (encoding_ != EngineTarget::flat) {
+  /// Of the bakes themselves. They are what the .glb shows, whatever the pages hold.
+  std::vector<Page> flat_pages() {
+    if (load_lightmap(folder_.places.front()).image.find("") == nullptr)
+      fail(ExitCode::unsupported, "{} has no flat bake, which the .glb shows; add 'flat' to --bases",
+           lightmaps_.string());
+    std::vector<Page> flat;
+    for (std::size_t page = 0; page < layout().pages.size(); ++page)
+      flat.push_back(compose_page(folder_, layout(), page, {""}));
+    return flat;
+  }
+
+  void write_encoded_pages(const std::vector<Page>& flat) {
+    const bool is_flat = encoding_ == EngineTarget::flat;
+    LightmapFolder source;
+    std::vector<std::string> layers;
+    if (!is_flat) {
       source = convert();
       const LoadedLightmap first = load_lightmap(source.places.front());
       layers = make_codec(codec_, {first.file, first.metadata.bases})->layers();
@@ -126,9 +139,11 @@ class EngineDelivery {
     for (std::size_t page = 0; page < layout().pages.size(); ++page) {
       say(0.5 + 0.2 * double(page) / double(layout().pages.size()), fmt::format("page {}", page));
       const RectSize size = layout().pages[page];
-      pages_.push_back({{"width", size.width},
-                        {"height", size.height},
-                        {"layers", write_page(page, compose_page(source, layout(), page, layers))}});
+      pages_.push_back(
+          {{"width", size.width},
+           {"height", size.height},
+           {"layers",
+            write_page(page, is_flat ? flat[page] : compose_page(source, layout(), page, layers))}});
     }
     summary_.form = writer_.form();
     summary_.losses = writer_.losses();
@@ -155,14 +170,8 @@ class EngineDelivery {
     return open_lightmaps(folder);
   }
 
-  /// Of the bakes themselves, for the .glb.
-  void write_flat_pictures() {
-    if (load_lightmap(folder_.places.front()).image.find("") == nullptr)
-      fail(ExitCode::unsupported, "{} has no flat bake, which the .glb shows; add 'flat' to --bases",
-           lightmaps_.string());
-    std::vector<Page> flat;
-    for (std::size_t page = 0; page < layout().pages.size(); ++page)
-      flat.push_back(compose_page(folder_, layout(), page, {""}));
+  /// For the .glb.
+  void write_flat_pictures(const std::vector<Page>& flat) {
     white_ = white_of(flat);
     const fs::path folder = session_.new_folder("pictures");
     for (std::size_t page = 0; page < flat.size(); ++page) {

@@ -60,7 +60,7 @@ nlohmann::ordered_json record_of(const PictureMetrics& lost) {
 nlohmann::ordered_json PageWriter::write(std::size_t number, const Page& page) {
   nlohmann::ordered_json names = nlohmann::ordered_json::object();
   for (const Layer& layer : page.layers) {
-    const std::string said = layer.name.empty() ? flat : layer.name;
+    const std::string said = record_name(layer);
     if (!holds_negative(form_.format) && has_negative(layer.pixels, page.coverage))
       fail(ExitCode::unsupported,
            "page {}: layer '{}' has values below 0, which {} cannot hold; choose --page-format exr or "

@@ -33,6 +33,10 @@ class PageWriter {
   PageWriter(DeliveryFiles& files, PageForm form, int padding)
       : files_(files), form_(form), padding_(padding) {}
 
+  [[nodiscard]] static std::string record_name(const Layer& layer) {
+    return layer.name.empty() ? flat : layer.name;
+  }
+
   [[nodiscard]] const PageForm& form() const { return form_; }
 
   /// Writes all layers as pageN.LAYER with the format's ending; returns the file of each, by its name. Throws

@@ -1,13 +1,10 @@
 #include "pipeline/deliver/engines/bevy.h"
 
-#include <utility>
+#include "pipeline/deliver/engines/shipped_files.h"
 
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
-
-/// Name and text of each file of src/pipeline/deliver/engines/shipped/.
-const std::vector<std::pair<const char*, const char*>>& embedded_engine_files();
 
 namespace {
 
@@ -39,7 +36,7 @@ void Bevy::add_files(DeliveryFiles& files, nlohmann::ordered_json& record) const
       "const PAGES: [&str; {}] = [\n{}];\n\n// Name of a node, and its page.\nconst LIGHTMAPPED: [(&str, "
       "usize); {}] = [\n{}];\n",
       record.at("pages").size(), pages, record.at("objects").size(), nodes);
-  for (const auto& [name, text] : embedded_engine_files()) files.add(name, text + tables);
+  for (const auto& [name, text] : embedded_bevy_files()) files.add(name, text + tables);
 }
 
 }  // namespace rnmbake

@@ -1,11 +1,10 @@
 #include "pipeline/deliver/engines/engine_targets.h"
 
 #include "base/error.h"
-#include "pipeline/deliver/engines/babylon.h"
 #include "pipeline/deliver/engines/bevy.h"
 #include "pipeline/deliver/engines/gltf.h"
 #include "pipeline/deliver/engines/godot.h"
-#include "pipeline/deliver/engines/playcanvas.h"
+#include "pipeline/deliver/engines/raw_pages_target.h"
 #include "pipeline/deliver/engines/threejs.h"
 #include "pipeline/deliver/engines/unity.h"
 
@@ -16,8 +15,8 @@ namespace rnmbake {
 const std::vector<const EngineTarget*>& engine_targets() {
   static const Gltf gltf;
   static const ThreeJs threejs;
-  static const PlayCanvas playcanvas;
-  static const Babylon babylon;
+  static const RawPagesTarget playcanvas("playcanvas", embedded_playcanvas_files());
+  static const RawPagesTarget babylon("babylon", embedded_babylon_files());
   static const Bevy bevy;
   static const Godot godot;
   static const Unity unity;

@@ -1,13 +1,9 @@
 #include "pipeline/deliver/engines/threejs.h"
 
+#include "pipeline/deliver/engines/shipped_files.h"
 #include "pipeline/deliver/engines/web_decoder.h"
 
-#include <utility>
-
 namespace rnmbake {
-
-/// Name and text of each file of web/threejs/.
-const std::vector<std::pair<const char*, const char*>>& embedded_threejs_files();
 
 const std::vector<std::string>& ThreeJs::encodings() const {
   return web_encodings();

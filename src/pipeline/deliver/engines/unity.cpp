@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "image/picture_rows.h"
 #include "pipeline/deliver/engine_axes.h"
+#include "pipeline/deliver/engines/shipped_files.h"
 #include "shaders/engines.h"
 
 #include <utility>
@@ -10,9 +11,6 @@
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
-
-/// Name and text of each file of engines/unity/.
-const std::vector<std::pair<const char*, const char*>>& embedded_unity_files();
 
 namespace {
 
