@@ -7,11 +7,18 @@ namespace {
 
 constexpr double shortest_seconds = 10, least_share = 20;  // of a pass; of it in its fixed cost
 
-/// Samples of a pass that is neither too short nor too dear: a power of two, which suits Sobol's sequence.
-int samples_of_pass(const PassCost& cost) {
+/// Part of the samples before a pass that it has at least: every pass is a picture to keep and to add up, and
+/// where one sample of a large atlas takes longer than the shortest pass there would be one for each.
+constexpr int least_growth = 8;
+
+/// Samples of a pass after `before` that is neither too short nor too dear: a power of two, which suits
+/// Sobol's sequence.
+int samples_of_pass(const PassCost& cost, int before) {
   const double seconds = std::max(shortest_seconds, least_share * cost.fixed_seconds);
   int samples = 1;
-  while (samples < (1 << 24) && samples * cost.sample_seconds < seconds) samples *= 2;
+  while (samples < (1 << 24) &&
+         (samples * cost.sample_seconds < seconds || samples * 2 <= before / least_growth))
+    samples *= 2;
   return samples;
 }
 
@@ -35,7 +42,6 @@ PassCost model_cost(std::int64_t covered_texels, std::int64_t receiver_triangles
 
 std::vector<SamplePass> cut_into_passes(const HalfSamples& done, const HalfSamples& wanted,
                                         const PassCost& cost) {
-  const int length = samples_of_pass(cost);
   std::vector<SamplePass> passes;
   HalfSamples next = done;
   while (next[0] < wanted[0] || next[1] < wanted[1]) {
@@ -43,7 +49,8 @@ std::vector<SamplePass> cut_into_passes(const HalfSamples& done, const HalfSampl
       int& first = next[std::size_t(half)];
       const int end = wanted[std::size_t(half)];
       if (first >= end) continue;
-      const int left = end - first, count = left < length + length / 2 ? left : length;
+      const int length = samples_of_pass(cost, first), left = end - first;
+      const int count = left < length + length / 2 ? left : length;
       passes.push_back({half, first, count, end});
       first += count;
     }

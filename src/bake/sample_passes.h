@@ -37,7 +37,8 @@ struct PassCost {
                                   std::int64_t scene_triangles);
 
 /// Passes from `done` to `wanted`, half by half in turns: each long enough that its fixed cost is at most a
-/// twentieth of it, and short enough that little is lost where it is cut off.
+/// twentieth of it, and short enough that little is lost where it is cut off. Their number grows with the
+/// logarithm of the samples: the cut does not depend on `wanted`, but for the last pass.
 [[nodiscard]] std::vector<SamplePass> cut_into_passes(const HalfSamples& done, const HalfSamples& wanted,
                                                       const PassCost& cost);
 

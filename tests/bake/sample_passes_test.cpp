@@ -42,11 +42,19 @@ TEST(SamplePasses, AreLongEnoughForTheirFixedCostAndShortEnoughToLose) {
   for (const double fixed : {0.3, 2.0, 30.0}) {
     const PassCost cost{fixed, 0.05};
     for (const SamplePass& pass : cut_into_passes({0, 0}, in_halves(1 << 17), cost)) {
-      const double seconds = pass.count * cost.sample_seconds;
+      const double seconds = pass.count * cost.sample_seconds, before = pass.first * cost.sample_seconds;
       EXPECT_GE(seconds, 20 * fixed);
-      EXPECT_LE(seconds, 3 * std::max(20 * fixed, 10.0));
+      EXPECT_LE(seconds, 3 * std::max({20 * fixed, 10.0, before / 16}));
     }
   }
+}
+
+TEST(SamplePasses, OfALargeAtlasAreFew) {
+  const PassCost large{1, 100};  // a sample takes longer than the shortest pass
+  EXPECT_EQ(cut_into_passes({0, 0}, {4, 4}, large).size(), 8U);
+  const auto passes = [&](int samples) { return cut_into_passes({0, 0}, {samples, samples}, large).size(); };
+  EXPECT_EQ(passes(128), 2U * (16 + 8 + 8 + 8));
+  EXPECT_EQ(passes(1024) - passes(512), passes(512) - passes(256));
 }
 
 TEST(SamplePasses, TakeTurns) {

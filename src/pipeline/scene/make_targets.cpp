@@ -216,7 +216,7 @@ void check_light(const ResolvedConfig& config, const SceneSurvey& survey) {
   fail(
       ExitCode::invalid_input,
       "nothing lights {}: no lamp, no sky and no material that emits is rendered, so all would be black; add "
-      "light, or pass --sky 1 or --sun 135,45,3, or --allow-dark",
+      "light (--sky 1, --sun 135,45,3), or pass --allow-dark",
       survey.scene_file);
 }
 
