@@ -7,6 +7,7 @@
 #include "pipeline/deliver/engines/raw_pages_target.h"
 #include "pipeline/deliver/engines/threejs.h"
 #include "pipeline/deliver/engines/unity.h"
+#include "pipeline/deliver/engines/unreal.h"
 
 #include <algorithm>
 
@@ -20,8 +21,9 @@ const std::vector<const EngineTarget*>& engine_targets() {
   static const Bevy bevy;
   static const Godot godot;
   static const Unity unity;
+  static const Unreal unreal;
   static const std::vector<const EngineTarget*> all{&gltf, &threejs, &playcanvas, &babylon,
-                                                    &bevy, &godot,   &unity};
+                                                    &bevy, &godot,   &unity,      &unreal};
   return all;
 }
 

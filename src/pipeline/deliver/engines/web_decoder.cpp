@@ -38,7 +38,7 @@ const std::vector<std::string>& web_encodings() {
   return names;
 }
 
-nlohmann::json web_decoder(const nlohmann::ordered_json& record) {
+nlohmann::json web_decoder(const nlohmann::ordered_json& record, const std::string& shader_engine) {
   const std::string encoding = record.at("encoding").get<std::string>();
   nlohmann::json layers = nlohmann::json::array();
   for (const auto& [layer, file] : record.at("pages").at(0).at("layers").items()) layers.push_back(layer);
@@ -47,7 +47,7 @@ nlohmann::json web_decoder(const nlohmann::ordered_json& record) {
   const auto* const found = std::ranges::find(decoders, encoding, &WebDecoder::encoding);
   return {{"layers", std::move(layers)},
           {"function", found->function},
-          {"text", shader_text(engine_named("glsl"), {found->shader})}};
+          {"text", shader_text(engine_named(shader_engine), {found->shader})}};
 }
 
 }  // namespace rnmbake
