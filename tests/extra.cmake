@@ -110,7 +110,8 @@ foreach(CLASS PlayCanvas Babylon)
   set_tests_properties(deliver.${CLASS} PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 endforeach()
 rnm_check(deliver.Engines blender 1200 with_blender/deliver/engines)
-set_tests_properties(deliver.Engines PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
+rnm_check(deliver.Vtf blender 600 with_blender/deliver/vtf ENV RNMBAKE_BUILD=${CMAKE_BINARY_DIR})
+set_tests_properties(deliver.Engines deliver.Vtf PROPERTIES SKIP_REGULAR_EXPRESSION "OK \\(skipped=")
 
 # The report's page in a real browser, and report.json against its schema.
 add_executable(sample_report ${CMAKE_CURRENT_SOURCE_DIR}/report/sample_report.cpp)

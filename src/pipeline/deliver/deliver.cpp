@@ -14,6 +14,7 @@
 #include "pipeline/run/hold_folder.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <utility>
 
@@ -49,6 +50,14 @@ void check_objects(const nlohmann::json& manifest, const fs::path& file) {
     if (object.value("object_in_scene", "").empty() || object.value("uv_index", -1) != 1)
       fail(ExitCode::unsupported, "{}: the saved scene has no UVs of '{}'; bake with --save-scene always",
            file.string(), object.at("key").get<std::string>());
+  }
+}
+
+/// To sides that are powers of two.
+void round_up(std::vector<RectSize>& pages) {
+  for (RectSize& page : pages) {
+    page.width = static_cast<int>(std::bit_ceil(static_cast<unsigned>(page.width)));
+    page.height = static_cast<int>(std::bit_ceil(static_cast<unsigned>(page.height)));
   }
 }
 
@@ -88,7 +97,7 @@ class EngineDelivery {
         lightmaps_(lightmaps),
         folder_(open_lightmaps(lightmaps)),
         manifest_(read_manifest(lightmaps / "manifest.json")),
-        files_(session.new_folder("delivery")),
+        files_(session.new_folder("delivery"), session.settings().output.dir),
         writer_(files_, page_form(options), options.pages.padding) {
     if (folder_.places.empty())
       fail(ExitCode::invalid_input, "{} holds no lightmap: none was baked", lightmaps.string());
@@ -98,12 +107,13 @@ class EngineDelivery {
     PageLimits limits = options_.pages;
     limits.alike = target_.pages_alike();
     summary_.layout = lay_out_pages(folder_, limits);
+    if (target_.powers_of_two()) round_up(summary_.layout.pages);
     const std::vector<Page> flat = flat_pages();
     write_encoded_pages(flat);
     write_flat_pictures(flat);
     write_scene();
     target_.add_files(files_, record_);
-    summary_.written = files_.put_into(session_.settings().output.dir, std::move(record_));
+    summary_.written = files_.put_in_place(std::move(record_));
     summary_.files = files_.names();
     return std::move(summary_);
   }

@@ -33,20 +33,20 @@ void DeliveryFiles::add(const std::string& name, std::string_view text) {
   write_atomically(add(name), text);
 }
 
-std::size_t DeliveryFiles::put_into(const fs::path& folder, nlohmann::ordered_json record) {
-  const std::vector<std::string> earlier = earlier_names(folder / record_name);
+std::size_t DeliveryFiles::put_in_place(nlohmann::ordered_json record) {
+  const std::vector<std::string> earlier = earlier_names(folder_ / record_name);
   std::size_t written = 0;
   for (const std::string& name : names_) {
     const auto copy = [&](const fs::path& to) {
       fs::copy_file(making_ / name, to, fs::copy_options::overwrite_existing);
     };
-    written += write_atomically(folder / name, copy) ? 1 : 0;
+    written += write_atomically(folder_ / name, copy) ? 1 : 0;
   }
   names_.emplace_back(record_name);
   record["files"] = names_;
-  written += write_atomically(folder / record_name, record.dump(1) + "\n") ? 1 : 0;
+  written += write_atomically(folder_ / record_name, record.dump(1) + "\n") ? 1 : 0;
   for (const std::string& name : earlier) {
-    const auto left = file_inside(folder, name);
+    const auto left = file_inside(folder_, name);
     std::error_code gone;
     if (left && std::ranges::find(names_, name) == names_.end()) fs::remove(*left, gone);
   }

@@ -16,8 +16,11 @@ class DeliveryFiles {
  public:
   static constexpr const char* record_name = "lightmaps.json";
 
-  /// `making`: an empty folder of this run's own.
-  explicit DeliveryFiles(std::filesystem::path making) : making_(std::move(making)) {}
+  /// `making`: an empty folder of this run's own. `folder`: where the files are to be in the end.
+  DeliveryFiles(std::filesystem::path making, std::filesystem::path folder)
+      : making_(std::move(making)), folder_(std::move(folder)) {}
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
   /// Where a file of that name is to be made.
   [[nodiscard]] std::filesystem::path add(const std::string& name);
@@ -31,10 +34,10 @@ class DeliveryFiles {
   /// Puts all files into the folder, `record` last, whose "files" names them; removes those that an earlier
   /// record of the folder names and this one does not. Files with the same bytes keep their time. Returns how
   /// many were written. Throws Error(io).
-  std::size_t put_into(const std::filesystem::path& folder, nlohmann::ordered_json record);
+  std::size_t put_in_place(nlohmann::ordered_json record);
 
  private:
-  std::filesystem::path making_;
+  std::filesystem::path making_, folder_;
   std::vector<std::string> names_;
 };
 

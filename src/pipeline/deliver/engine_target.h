@@ -40,6 +40,9 @@ class EngineTarget {
   /// All pages have the size of the largest.
   [[nodiscard]] virtual bool pages_alike() const { return false; }
 
+  /// Sides of pages are powers of two.
+  [[nodiscard]] virtual bool powers_of_two() const { return false; }
+
   /// Formats of pages that users may choose of, the first where they do not; none where write_page() knows
   /// what the engine reads.
   [[nodiscard]] virtual const std::vector<PageFormat>& formats() const;

@@ -15,6 +15,7 @@ import godot_run
 from harness import OK, rnmbake
 from page_light import covered_texels
 from pictures import read_picture, unlike_blocks
+from source_case import SourceCase
 from unreal_case import UnrealCase
 
 HERE = Path(__file__).resolve().parent
@@ -128,6 +129,10 @@ class Unity(Engine):
 
 class Unreal(UnrealCase):
     """The script in a fake of Unreal's editor."""
+
+
+class Source(SourceCase):
+    """By readers of its formats."""
 
 
 class RunningGodot(godot_run.Godot):

@@ -5,6 +5,7 @@
 #include "pipeline/deliver/engines/gltf.h"
 #include "pipeline/deliver/engines/godot.h"
 #include "pipeline/deliver/engines/raw_pages_target.h"
+#include "pipeline/deliver/engines/source.h"
 #include "pipeline/deliver/engines/threejs.h"
 #include "pipeline/deliver/engines/unity.h"
 #include "pipeline/deliver/engines/unreal.h"
@@ -22,8 +23,9 @@ const std::vector<const EngineTarget*>& engine_targets() {
   static const Godot godot;
   static const Unity unity;
   static const Unreal unreal;
-  static const std::vector<const EngineTarget*> all{&gltf, &threejs, &playcanvas, &babylon,
-                                                    &bevy, &godot,   &unity,      &unreal};
+  static const Source source;
+  static const std::vector<const EngineTarget*> all{&gltf,  &threejs, &playcanvas, &babylon, &bevy,
+                                                    &godot, &unity,   &unreal,     &source};
   return all;
 }
 

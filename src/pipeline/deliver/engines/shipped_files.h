@@ -14,6 +14,7 @@ using ShippedFiles = std::vector<std::pair<const char*, const char*>>;
 [[nodiscard]] const ShippedFiles& embedded_babylon_files();
 [[nodiscard]] const ShippedFiles& embedded_unity_files();
 [[nodiscard]] const ShippedFiles& embedded_unreal_files();
+[[nodiscard]] const ShippedFiles& embedded_source_files();
 [[nodiscard]] const ShippedFiles& embedded_bevy_files();
 
 }  // namespace rnmbake
