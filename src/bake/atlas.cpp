@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #define STBRP_STATIC
@@ -60,8 +59,11 @@ RectSize place(std::vector<stbrp_rect>& rects, RectSize limit) {
   return used;
 }
 
-/// Adds an atlas of those that were placed; gives the others back.
-std::vector<stbrp_rect> take_placed(AtlasPlan& plan, const std::vector<stbrp_rect>& rects, RectSize size) {
+/// Adds one atlas with as many of the rectangles as fit; gives the others back. The widest always fits, since
+/// no rectangle has more pixels than the limit.
+std::vector<stbrp_rect> fill_atlas(AtlasPlan& plan, std::vector<stbrp_rect> rects, std::int64_t max_pixels) {
+  const int width = choose_width(rects, max_pixels);
+  const RectSize used = place(rects, {width, static_cast<int>(max_pixels / width)});
   std::vector<stbrp_rect> left;
   for (const stbrp_rect& rect : rects) {
     if (rect.was_packed == 0) {
@@ -70,51 +72,8 @@ std::vector<stbrp_rect> take_placed(AtlasPlan& plan, const std::vector<stbrp_rec
       plan.placements[static_cast<std::size_t>(rect.id)] = {plan.atlases.size(), rect.x, rect.y};
     }
   }
-  plan.atlases.push_back(size);
+  plan.atlases.push_back(used);
   return left;
-}
-
-/// Adds one atlas with as many of the rectangles as fit; gives the others back. The widest always fits, since
-/// no rectangle has more pixels than the limit.
-std::vector<stbrp_rect> fill_atlas(AtlasPlan& plan, std::vector<stbrp_rect> rects, std::int64_t max_pixels) {
-  const int width = choose_width(rects, max_pixels);
-  const RectSize used = place(rects, {width, static_cast<int>(max_pixels / width)});
-  return take_placed(plan, rects, used);
-}
-
-bool all_placed(const std::vector<stbrp_rect>& rects) {
-  return std::ranges::all_of(rects, [](const stbrp_rect& rect) { return rect.was_packed != 0; });
-}
-
-constexpr int tried_widths = 64, block_side = 4;
-
-/// Texels, a tenth more for each time that the page is longer than wide, or wider than long.
-double cost_of(RectSize size) {
-  const auto [shorter, longer] = std::minmax(size.width, size.height);
-  return double(size.width) * size.height * (1 + 0.1 * (double(longer) / shorter - 1));
-}
-
-/// Adds the smallest page that holds all of the rectangles, or a whole one with as many as fit; gives the
-/// others back.
-std::vector<stbrp_rect> fill_page(AtlasPlan& plan, const std::vector<stbrp_rect>& rects, int side) {
-  const auto rounded = [&](int length) {
-    return std::min((length + block_side - 1) / block_side * block_side, side);
-  };
-  std::vector<stbrp_rect> best;
-  RectSize smallest{side, side};
-  for (int i = 1; i <= tried_widths; ++i) {
-    const int width = rounded(side * i / tried_widths);
-    if (std::ranges::any_of(rects, [&](const stbrp_rect& rect) { return rect.w > width; })) continue;
-    std::vector<stbrp_rect> placed = rects;
-    const RectSize used = place(placed, {width, side});
-    const RectSize size{rounded(used.width), rounded(used.height)};
-    if (!all_placed(placed) && width < side) continue;
-    if (best.empty() || cost_of(size) < cost_of(smallest)) {
-      best = std::move(placed);
-      smallest = size;
-    }
-  }
-  return take_placed(plan, best, smallest);
 }
 
 }  // namespace
@@ -134,19 +93,6 @@ AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels) {
     }
   }
   while (!left.empty()) left = fill_atlas(plan, std::move(left), max_pixels);
-  return plan;
-}
-
-AtlasPlan pack_pages(const std::vector<RectSize>& rects, int side) {
-  AtlasPlan plan;
-  plan.placements.resize(rects.size());
-  std::vector<stbrp_rect> left;
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    if (rects[i].width > side || rects[i].height > side)
-      throw std::invalid_argument("a rectangle is larger than a page");
-    left.push_back({static_cast<int>(i), rects[i].width, rects[i].height, 0, 0, 0});
-  }
-  while (!left.empty()) left = fill_page(plan, left, side);
   return plan;
 }
 

@@ -25,9 +25,4 @@ struct AtlasPlan {
 /// unless a single rectangle alone does; a single rectangle gets an atlas of its own size.
 [[nodiscard]] AtlasPlan pack(const std::vector<RectSize>& rects, std::int64_t max_pixels);
 
-/// The same into pages of at most `side` x `side` texels, as few as go. Each is as small as its rectangles
-/// allow, with sides that are multiples of 4, a compressed block's, where `side` is one. Throws
-/// std::invalid_argument where a rectangle is larger than a page.
-[[nodiscard]] AtlasPlan pack_pages(const std::vector<RectSize>& rects, int side);
-
 }  // namespace rnmbake

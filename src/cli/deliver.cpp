@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/object_notes.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "blender/late_blender.h"
@@ -71,10 +72,18 @@ void say_loss(const DeliverySummary& summary) {
             worst.lost.max, worst.page, worst.layer);
 }
 
+/// "1 page of 512 x 480", "3 pages (4096 x 4096, 4096 x 4096 and 4096 x 1200)".
+std::string said_pages(const PageLayout& layout) {
+  std::vector<std::string> sizes;
+  for (const RectSize& page : layout.pages) sizes.push_back(fmt::format("{} x {}", page.width, page.height));
+  return fmt::format("{} of {}", counted(sizes.size(), "page"), first_names(sizes));
+}
+
 void say_delivered(const DeliverySummary& summary, const fs::path& folder) {
   for (const std::string& note : summary.notes) log::warn("{}", note);
-  log::info("{} on {}, {:.2f} texels for each covered one", counted(summary.layout.maps.size(), "lightmap"),
-            counted(summary.layout.pages.size(), "page"), summary.layout.texels_for_each_covered());
+  log::info("{} on {}, {:.2f} texels for each covered one ({:.2f} for surfaces and the padding around)",
+            counted(summary.layout.maps.size(), "lightmap"), said_pages(summary.layout),
+            summary.layout.texels_for_each_covered(), summary.layout.least_for_each_covered());
   say_loss(summary);
   log::info("{} in {}, {} of them written anew", counted(summary.files.size(), "file"), folder.string(),
             summary.written);
@@ -86,6 +95,7 @@ void report(const DeliverySummary& summary, RunReport& made) {
   made.more["pages"] = summary.layout.pages.size();
   made.more["lightmaps"] = summary.layout.maps.size();
   made.more["texels_for_each_covered"] = summary.layout.texels_for_each_covered();
+  made.more["least_for_each_covered"] = summary.layout.least_for_each_covered();
   made.more["written"] = summary.written;
   made.more["notes"] = summary.notes;
 }
@@ -150,13 +160,13 @@ std::function<int()> add_deliver_command(CLI::App& app) {
       ->check(CLI::IsMember(delivered_encodings()).description(""))
       ->type_name(fmt::format("{}", fmt::join(delivered_encodings(), "|")))
       ->group("Delivery");
-  command->add_option("--pages", flags->options.pages.side, "largest side of the pages, texels [4096]")
+  command->add_option("--pages", flags->options.side, "largest side of the pages, texels [4096]")
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("SIDE")
       ->group("Delivery");
   command
-      ->add_option("--page-padding", flags->options.pages.padding,
-                   "texels around each map that are filled from it, for filters and mipmaps [4]")
+      ->add_option("--page-padding", flags->options.padding,
+                   "texels around surfaces that are filled from them, for filters and mipmaps [4]")
       ->check(CLI::Range(1, 64).description(""))
       ->type_name("TEXELS")
       ->group("Delivery");

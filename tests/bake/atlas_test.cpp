@@ -131,33 +131,5 @@ TEST(Atlas, OfNothingIsNothing) {
   EXPECT_TRUE(pack({}, 100).atlases.empty());
 }
 
-TEST(Pages, HaveNoOverlapsAndAreNoLargerThanTheirSide) {
-  for (unsigned seed = 0; seed < 30; ++seed) {
-    const auto rects = random_tiles(seed, 1 + int(seed) * 4, 1 + int(seed * 5 % 60));
-    for (const int side : {64, 100, 256}) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << " side " << side);
-      const AtlasPlan plan = pack_pages(rects, side);
-      expect_sound(rects, plan, std::int64_t(side) * side);
-      for (const RectSize& page : plan.atlases) {
-        EXPECT_TRUE(page.width <= side && page.height <= side);
-        EXPECT_TRUE(page.width % 4 == 0 && page.height % 4 == 0);
-      }
-    }
-  }
-}
-
-TEST(Pages, AreFilledAndAboutSquare) {
-  const std::vector<RectSize> rects(12, {50, 50});
-  const AtlasPlan plan = pack_pages(rects, 4096);
-  ASSERT_EQ(plan.atlases.size(), 1U);
-  EXPECT_LE(plan.atlases[0].width * plan.atlases[0].height, 1.15 * 12 * 50 * 50);
-  EXPECT_LE(std::max(plan.atlases[0].width, plan.atlases[0].height),
-            2 * std::min(plan.atlases[0].width, plan.atlases[0].height));
-}
-
-TEST(Pages, RefuseWhatIsLarger) {
-  EXPECT_THROW((void)pack_pages({{65, 3}}, 64), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace rnmbake

@@ -10,6 +10,7 @@
 #include "pipeline/deliver/delivery_files.h"
 #include "pipeline/deliver/flat_picture.h"
 #include "pipeline/deliver/glb.h"
+#include "pipeline/deliver/lightmap_uvs.h"
 #include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/run/hold_folder.h"
 
@@ -28,14 +29,6 @@ using nlohmann::ordered_json;
 
 ordered_json pair_of(const Imath::V2d& pair) {
   return {pair.x, pair.y};
-}
-
-/// Name of each object's stand-in in the saved scene, by key.
-std::map<std::string, std::string> saved_objects(const nlohmann::json& manifest) {
-  std::map<std::string, std::string> names;
-  for (const nlohmann::json& object : manifest.at("objects"))
-    names[object.at("key").get<std::string>()] = object.value("object_in_scene", "");
-  return names;
 }
 
 void check_objects(const nlohmann::json& manifest, const fs::path& file) {
@@ -73,14 +66,15 @@ PageForm page_form(const DeliverOptions& options) {
          name_of(form.format),
          known.empty() ? "leave --page-format out" : fmt::format("choose of {}", fmt::join(names, ", ")));
   }
-  const int most = mips_within(options.pages.padding);
+  form.padding = options.padding;
+  const int most = mips_within(form.padding);
   form.mips = options.mips.value_or(is_ktx2(form.format) ? most : 0);
   if (!is_ktx2(form.format) && (form.mips > 0 || form.zstd))
     fail(ExitCode::usage, "{} has no {}; choose --page-format ktx2-rgba16f, or leave the flag out",
          name_of(form.format), form.mips > 0 ? "mipmaps" : "compression by Zstandard");
   if (form.mips > most)
     fail(ExitCode::usage, "{} mipmaps reach past a padding of {} texels; pass --page-padding {}", form.mips,
-         options.pages.padding, 1 << form.mips);
+         form.padding, 1 << form.mips);
   return form;
 }
 
@@ -98,20 +92,21 @@ class EngineDelivery {
         folder_(open_lightmaps(lightmaps)),
         manifest_(read_manifest(lightmaps / "manifest.json")),
         files_(session.new_folder("delivery"), session.settings().output.dir),
-        writer_(files_, page_form(options), options.pages.padding) {
+        writer_(files_, page_form(options)) {
     if (folder_.places.empty())
       fail(ExitCode::invalid_input, "{} holds no lightmap: none was baked", lightmaps.string());
   }
 
   DeliverySummary make() {
-    PageLimits limits = options_.pages;
-    limits.alike = target_.pages_alike();
-    summary_.layout = lay_out_pages(folder_, limits);
+    const PageLimits limits{options_.side, writer_.form().padding, target_.pages_alike()};
+    const std::vector<std::string> objects = saved_objects();
+    say(0, "lightmap UVs");
+    summary_.layout = lay_out_pages(folder_, limits, lightmap_uvs(session_, objects));
     if (target_.powers_of_two()) round_up(summary_.layout.pages);
     const std::vector<Page> flat = flat_pages();
     write_encoded_pages(flat);
     write_flat_pictures(flat);
-    write_scene();
+    write_scene(objects);
     target_.add_files(files_, record_);
     summary_.written = files_.put_in_place(std::move(record_));
     summary_.files = files_.names();
@@ -120,6 +115,16 @@ class EngineDelivery {
 
  private:
   [[nodiscard]] const PageLayout& layout() const { return summary_.layout; }
+
+  /// Names in the saved scene of what stands for the folder's maps, in their order.
+  [[nodiscard]] std::vector<std::string> saved_objects() const {
+    std::map<std::string, std::string> by_key;
+    for (const nlohmann::json& object : manifest_.at("objects"))
+      by_key[object.at("key").get<std::string>()] = object.value("object_in_scene", "");
+    std::vector<std::string> names;
+    for (const LightmapPlace& place : folder_.places) names.push_back(by_key.at(place.key));
+    return names;
+  }
 
   void say(double share, const std::string& what) const {
     if (progress_) progress_(share, what);
@@ -152,6 +157,7 @@ class EngineDelivery {
       pages_.push_back(
           {{"width", size.width},
            {"height", size.height},
+           {"covered", layout().covered_share(page)},
            {"layers",
             write_page(page, is_flat ? flat[page] : compose_page(source, layout(), page, layers))}});
     }
@@ -192,11 +198,8 @@ class EngineDelivery {
     }
   }
 
-  void write_scene() {
+  void write_scene(const std::vector<std::string>& objects) {
     say(0.8, "scene.glb");
-    const std::map<std::string, std::string> saved = saved_objects(manifest_);
-    std::vector<std::string> objects;
-    for (const PagedMap& map : layout().maps) objects.push_back(saved.at(map.key));
     record_ = {{"schema_version", 1},      {"generator", fmt::format("rnmbake {}", version)},
                {"scene", "scene.glb"},     {"encoding", encoding_},
                {"units", "E/pi"},          {"space", target_.in_world() ? "world" : "tangent"},

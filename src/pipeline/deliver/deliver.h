@@ -16,8 +16,9 @@ namespace rnmbake {
 
 struct DeliverOptions {
   const EngineTarget* engine = nullptr;
-  std::string encoding;  // of the pages; "": the engine's own choice
-  PageLimits pages;
+  std::string encoding;              // of the pages; "": the engine's own choice
+  int side = 4096;                   // of pages, at most, texels
+  int padding = 4;                   // texels around surfaces that are filled from them
   std::optional<PageFormat> format;  // of the pages; else the engine's own choice
   std::optional<int> mips;           // levels below the first; else as many as the padding allows, with ktx2
   bool zstd = false;                 // compresses ktx2

@@ -8,7 +8,7 @@ const std::vector<PageFormat>& EngineTarget::formats() const {
 }
 
 nlohmann::ordered_json EngineTarget::write_page(DeliveryFiles& files, std::size_t number, Page page) const {
-  return PageWriter(files, {.format = PageFormat::exr}, 0).write(number, page);
+  return PageWriter(files, {.format = PageFormat::exr}).write(number, page);
 }
 
 }  // namespace rnmbake

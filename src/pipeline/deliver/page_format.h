@@ -41,6 +41,7 @@ struct PageForm {
   PageFormat format = PageFormat::exr;
   int mips = 0;       // levels below the first one; of ktx2
   bool zstd = false;  // of ktx2: compressed by Zstandard
+  int padding = 4;    // texels around surfaces that are filled from them
 };
 
 }  // namespace rnmbake

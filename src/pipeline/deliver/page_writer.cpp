@@ -38,10 +38,11 @@ TexelFormat texel_format(PageFormat format, bool negative) {
 }
 
 /// Blocks that hold a texel which is looked at have no empty ones beside it, which would bend their line.
-FloatImage with_whole_blocks(FloatImage image, const FloatImage& coverage, TexelFormat format, int padding) {
+/// `filled`: texels that have a value; `padding`: others that have one around these.
+FloatImage with_whole_blocks(FloatImage image, const FloatImage& filled, TexelFormat format, int padding) {
   constexpr int others_of_block = 3;
   if (format == TexelFormat::bc6h_ufloat || format == TexelFormat::bc6h_sfloat)
-    dilate(image, coverage, padding + others_of_block);
+    dilate(image, filled, padding + others_of_block);
   return image;
 }
 
@@ -67,7 +68,7 @@ nlohmann::ordered_json PageWriter::write(std::size_t number, const Page& page) {
            "ktx2-rgba16f",
            number, said, name_of(form_.format));
     const std::string file = fmt::format("page{}.{}{}", number, said, ending_of(form_.format));
-    const FloatImage seen = write_picture(file, layer.pixels, page.coverage);
+    const FloatImage seen = write_picture(file, layer.pixels, page);
     PictureComparison comparison;
     comparison.add({&seen}, {&layer.pixels}, {{&page.coverage}});
     losses_.push_back({number, said, comparison.metrics()});
@@ -76,8 +77,7 @@ nlohmann::ordered_json PageWriter::write(std::size_t number, const Page& page) {
   return names;
 }
 
-FloatImage PageWriter::write_picture(const std::string& name, const FloatImage& image,
-                                     const FloatImage& coverage) {
+FloatImage PageWriter::write_picture(const std::string& name, const FloatImage& image, const Page& page) {
   const std::filesystem::path file = files_.add(name);
   if (form_.format == PageFormat::exr) {
     write_exr(file, {{{"", {"R", "G", "B"}, image}}, {}}, Depth::half);
@@ -91,21 +91,21 @@ FloatImage PageWriter::write_picture(const std::string& name, const FloatImage& 
     write_rgbm(file, image);
     return read_rgbm(file);
   }
-  return write_ktx2(file, image, coverage);
+  return write_ktx2(file, image, page);
 }
 
 FloatImage PageWriter::write_ktx2(const std::filesystem::path& file, const FloatImage& image,
-                                  const FloatImage& coverage) const {
-  const TexelFormat format = texel_format(form_.format, has_negative(image, coverage));
-  EncodedTexels first = encode_texels(format, with_whole_blocks(image, coverage, format, padding_));
+                                  const Page& page) const {
+  const TexelFormat format = texel_format(form_.format, has_negative(image, page.coverage));
+  EncodedTexels first = encode_texels(format, with_whole_blocks(image, page.filled, format, 0));
   Ktx2Texture texture{
       .format = format,
       .size = {static_cast<std::uint32_t>(image.width()), static_cast<std::uint32_t>(image.height()), 0},
       .levels = {std::move(first.bytes)},
       .zstd = form_.zstd};
-  for (const MipLevel& level : mip_levels(image, coverage, form_.mips, padding_))
+  for (const MipLevel& level : mip_levels(image, page.seen, form_.mips, form_.padding))
     texture.levels.push_back(
-        encode_texels(format, with_whole_blocks(level.image, level.coverage, format, padding_)).bytes);
+        encode_texels(format, with_whole_blocks(level.image, level.coverage, format, form_.padding)).bytes);
   write_atomically(file, ktx2_of(texture));
   return std::move(first.seen);
 }

@@ -29,9 +29,7 @@ class PageWriter {
  public:
   static constexpr const char* flat = "flat";  // the record's name for the encoding without directions
 
-  /// `padding`: texels around the maps of the pages that are filled.
-  PageWriter(DeliveryFiles& files, PageForm form, int padding)
-      : files_(files), form_(form), padding_(padding) {}
+  PageWriter(DeliveryFiles& files, PageForm form) : files_(files), form_(form) {}
 
   [[nodiscard]] static std::string record_name(const Layer& layer) {
     return layer.name.empty() ? flat : layer.name;
@@ -48,14 +46,12 @@ class PageWriter {
 
  private:
   /// Writes the file; returns what is seen of it.
-  [[nodiscard]] FloatImage write_picture(const std::string& file, const FloatImage& image,
-                                         const FloatImage& coverage);
+  [[nodiscard]] FloatImage write_picture(const std::string& file, const FloatImage& image, const Page& page);
   [[nodiscard]] FloatImage write_ktx2(const std::filesystem::path& file, const FloatImage& image,
-                                      const FloatImage& coverage) const;
+                                      const Page& page) const;
 
   DeliveryFiles& files_;
   PageForm form_;
-  int padding_;
   std::vector<PageLoss> losses_;
 };
 

@@ -2,9 +2,12 @@
 
 #include "base/error.h"
 #include "lightmap/fill.h"
+#include "lightmap/mask_pack.h"
+#include "lightmap/touched.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace rnmbake {
 namespace {
@@ -16,35 +19,76 @@ const FloatImage& coverage_of(const LoadedLightmap& loaded) {
   return coverage->pixels;
 }
 
-/// The box of what is covered, and the number of covered texels; 1 x 1 where nothing is.
-std::size_t crop(const FloatImage& coverage, int padding, PagedMap& map) {
-  int left = coverage.width(), top = coverage.height(), right = -1, bottom = -1;
-  std::size_t covered = 0;
+/// Texels of a map in which a surface is seen.
+TexelBits surface_of(const FloatImage& coverage, const std::vector<Vec2>& uvs, PagedMap& map) {
+  TexelBits seen(coverage.width(), coverage.height());
   for (int y = 0; y < coverage.height(); ++y) {
     for (int x = 0; x < coverage.width(); ++x) {
       if (coverage.texel(x, y)[0] <= 0.5F) continue;
-      ++covered;
+      seen.set(x, y);
+      ++map.covered;
+    }
+  }
+  set_touched(uvs, seen);
+  return seen;
+}
+
+/// Cuts the map to the box of what is seen; 1 x 1 where nothing is.
+void crop(const TexelBits& seen, int padding, PagedMap& map) {
+  int left = seen.width(), top = seen.height(), right = -1, bottom = -1;
+  for (int y = 0; y < seen.height(); ++y) {
+    for (int x = 0; x < seen.width(); ++x) {
+      if (!seen.at(x, y)) continue;
       left = std::min(left, x);
       right = std::max(right, x);
       top = std::min(top, y);
       bottom = std::max(bottom, y);
     }
   }
-  if (covered == 0) left = top = right = bottom = 0;
+  if (right < 0) left = top = right = bottom = 0;
+  map.surface = {right - left + 1, bottom - top + 1};
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x)
+      if (seen.at(x, y)) map.surface.set(x - left, y - top);
+  }
   map.left = left - padding;
   map.top = top - padding;
-  map.box = {right - left + 1 + 2 * padding, bottom - top + 1 + 2 * padding};
-  return covered;
+  map.box = {map.surface.width() + 2 * padding, map.surface.height() + 2 * padding};
 }
 
-/// Covered texels alone: what was dilated within the map belongs to another layout.
-void copy_covered(const FloatImage& from, const FloatImage& coverage, const PagedMap& map, FloatImage& page) {
+/// Covered texels alone: what was dilated within the map may be less than its surfaces are seen in.
+FloatImage covered_box(const FloatImage& from, const FloatImage& coverage, const PagedMap& map) {
+  FloatImage box(map.box.width, map.box.height, from.channels());
   for (int y = std::max(map.top, 0); y < std::min(map.top + map.box.height, from.height()); ++y) {
     for (int x = std::max(map.left, 0); x < std::min(map.left + map.box.width, from.width()); ++x) {
       if (coverage.texel(x, y)[0] > 0.5F)
-        std::ranges::copy(from.texel(x, y), page.texel(map.x + x - map.left, map.y + y - map.top).begin());
+        std::ranges::copy(from.texel(x, y), box.texel(x - map.left, y - map.top).begin());
     }
   }
+  return box;
+}
+
+/// Copies those texels of the box that are the map's on the page.
+void put_on_page(const FloatImage& box, const TexelBits& own, const PagedMap& map, FloatImage& page) {
+  for (int y = 0; y < own.height(); ++y) {
+    for (int x = 0; x < own.width(); ++x)
+      if (own.at(x, y)) std::ranges::copy(box.texel(x, y), page.texel(map.x + x, map.y + y).begin());
+  }
+}
+
+void set_bits(const TexelBits& bits, int left, int top, FloatImage& page) {
+  for (int y = 0; y < bits.height(); ++y) {
+    for (int x = 0; x < bits.width(); ++x)
+      if (bits.at(x, y)) page.texel(left + x, top + y)[0] = 1;
+  }
+}
+
+double over(std::size_t texels, std::size_t covered) {
+  return covered == 0 ? std::numeric_limits<double>::infinity() : double(texels) / double(covered);
+}
+
+std::size_t texels_of(const RectSize& page) {
+  return std::size_t(page.width) * page.height;
 }
 
 void make_alike(std::vector<RectSize>& pages) {
@@ -66,38 +110,52 @@ Imath::V2d PagedMap::offset(RectSize page_size) const {
 
 double PageLayout::texels_for_each_covered() const {
   std::size_t texels = 0;
-  for (const RectSize& page : pages) texels += std::size_t(page.width) * page.height;
-  return covered == 0 ? std::numeric_limits<double>::infinity() : double(texels) / double(covered);
+  for (const RectSize& page : pages) texels += texels_of(page);
+  return over(texels, covered);
 }
 
-PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits) {
+double PageLayout::least_for_each_covered() const {
+  return over(taken, covered);
+}
+
+double PageLayout::covered_share(std::size_t page) const {
+  std::size_t on_it = 0;
+  for (const PagedMap& map : maps)
+    if (map.page == page) on_it += map.covered;
+  return double(on_it) / double(texels_of(pages[page]));
+}
+
+PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits,
+                         const std::vector<std::vector<Vec2>>& uvs) {
   PageLayout layout;
   layout.limits = limits;
-  std::vector<RectSize> boxes;
-  for (const LightmapPlace& place : folder.places) {
-    const LoadedLightmap loaded = load_lightmap(place);
+  std::vector<TexelBits> masks;
+  for (std::size_t i = 0; i < folder.places.size(); ++i) {
+    const LoadedLightmap loaded = load_lightmap(folder.places[i]);
     const FloatImage& coverage = coverage_of(loaded);
     PagedMap map;
-    map.key = place.key;
+    map.key = folder.places[i].key;
     map.map = {coverage.width(), coverage.height()};
-    layout.covered += crop(coverage, limits.padding, map);
+    crop(surface_of(coverage, uvs.empty() ? std::vector<Vec2>() : uvs[i], map), limits.padding, map);
     if (map.box.width > limits.side || map.box.height > limits.side) {
       fail(ExitCode::unsupported,
            "{}: its map takes {} x {} texels with {} of padding, more than a page of {}; raise --pages, or "
            "bake it "
            "at a lower resolution",
-           place.key, map.box.width, map.box.height, limits.padding, limits.side);
+           map.key, map.box.width, map.box.height, limits.padding, limits.side);
     }
-    boxes.push_back(map.box);
+    masks.push_back(grown(map.surface, limits.padding));
+    layout.covered += map.covered;
+    layout.taken += masks.back().count();
     layout.maps.push_back(std::move(map));
   }
-  const AtlasPlan plan = pack_pages(boxes, limits.side);
-  layout.pages = plan.atlases;
+  const MaskPlan plan = pack_masks(masks, limits.side);
+  for (const MaskPlan::Page& page : plan.pages) layout.pages.push_back({page.width, page.height});
   if (limits.alike) make_alike(layout.pages);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    layout.maps[i].page = plan.placements[i].atlas;
-    layout.maps[i].x = plan.placements[i].x;
-    layout.maps[i].y = plan.placements[i].y;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    layout.maps[i].page = plan.places[i].page;
+    layout.maps[i].x = plan.places[i].x;
+    layout.maps[i].y = plan.places[i].y;
   }
   return layout;
 }
@@ -105,24 +163,30 @@ PageLayout lay_out_pages(const LightmapFolder& folder, const PageLimits& limits)
 Page compose_page(const LightmapFolder& folder, const PageLayout& layout, std::size_t page,
                   const std::vector<std::string>& layers) {
   const RectSize size = layout.pages[page];
-  Page composed{{}, {size.width, size.height, 1}};
+  const FloatImage empty(size.width, size.height, 1);
+  Page composed{{}, empty, empty, empty};
   for (const std::string& name : layers)
     composed.layers.push_back({name, {"R", "G", "B"}, {size.width, size.height, 3}});
   for (const PagedMap& map : layout.maps) {
     if (map.page != page) continue;
     const LoadedLightmap loaded = load_lightmap(*folder.find(map.key));
     const FloatImage& coverage = coverage_of(loaded);
-    copy_covered(coverage, coverage, map, composed.coverage);
+    const FloatImage covered = covered_box(coverage, coverage, map);
+    const TexelBits own = grown(map.surface, layout.limits.padding);
+    put_on_page(covered, own, map, composed.coverage);
+    set_bits(map.surface, map.x + layout.limits.padding, map.y + layout.limits.padding, composed.seen);
+    set_bits(own, map.x, map.y, composed.filled);
     for (Layer& layer : composed.layers) {
-      const Layer* own = loaded.image.find(layer.name);
-      if (own == nullptr || own->channels != layer.channels)
+      const Layer* found = loaded.image.find(layer.name);
+      if (found == nullptr || found->channels != layer.channels)
         fail(ExitCode::invalid_input,
              "{} has no layer '{}', which other maps have; bake all with the same settings", loaded.file,
              layer.name);
-      copy_covered(own->pixels, coverage, map, layer.pixels);
+      FloatImage box = covered_box(found->pixels, coverage, map);
+      dilate(box, covered, std::max(map.box.width, map.box.height));
+      put_on_page(box, own, map, layer.pixels);
     }
   }
-  for (Layer& layer : composed.layers) dilate(layer.pixels, composed.coverage, layout.limits.padding);
   return composed;
 }
 

@@ -15,8 +15,8 @@ import godot_run
 from harness import OK, rnmbake
 from page_light import covered_texels
 from pictures import read_picture, unlike_blocks
-from source_case import SourceCase
-from unreal_case import UnrealCase
+import source_case
+import unreal_case
 
 HERE = Path(__file__).resolve().parent
 
@@ -127,11 +127,11 @@ class Unity(Engine):
         self.refused("unity", "--frames")
 
 
-class Unreal(UnrealCase):
+class Unreal(unreal_case.UnrealCase):
     """The script in a fake of Unreal's editor."""
 
 
-class Source(SourceCase):
+class Source(source_case.SourceCase):
     """By readers of its formats."""
 
 
