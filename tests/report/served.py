@@ -12,7 +12,7 @@ import unittest
 import browser
 
 THREE = "three@0.187.0"
-ENGINES = {"threejs": (THREE,), "playcanvas": ("playcanvas@2.23.3",), "babylon": ("@babylonjs/core@9.35.0", "@babylonjs/loaders@9.28.0")}
+ENGINES = {"threejs": (THREE,), "gltf": (THREE,), "playcanvas": ("playcanvas@2.23.3",), "babylon": ("@babylonjs/core@9.35.0", "@babylonjs/loaders@9.28.0")}
 
 
 def skip(why):

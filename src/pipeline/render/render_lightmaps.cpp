@@ -1,6 +1,7 @@
 #include "pipeline/render/render_lightmaps.h"
 
 #include "bake/targets.h"
+#include "bake/texel_centres.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/read_file.h"
@@ -56,13 +57,15 @@ std::optional<Owner> owner_of(const SceneSurvey& survey, const std::string& key)
   return std::nullopt;
 }
 
-/// Share of the triangles' UV area whose middle lies on or beside a covered texel.
+/// Share of the triangles' UV area whose middle lies on or beside a covered texel. Triangles between the
+/// centres of texels cover none and say nothing; 1 where all are.
 double share_on_map(const Mesh& mesh, const Owner& owner, const std::vector<Vec2>& uv,
                     const FloatImage& coverage) {
   double on = 0, all = 0;
   for (const std::uint32_t t : owner.triangles) {
     std::array<Vec2, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = uv[mesh.triangle_loops[3 * std::size_t(t) + k]];
+    if (!may_hold_centre(corner, {coverage.width(), coverage.height()})) continue;
     const double area = std::abs(double((corner[1] - corner[0]).cross(corner[2] - corner[0])));
     const Vec2 middle = (corner[0] + corner[1] + corner[2]) / 3;
     const auto taps = bilinear_taps(coverage, middle, Border::clamp);
@@ -71,7 +74,7 @@ double share_on_map(const Mesh& mesh, const Owner& owner, const std::vector<Vec2
     all += area;
     on += covered ? area : 0;
   }
-  return all > 0 ? on / all : 0;
+  return all > 0 ? on / all : 1;
 }
 
 PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, const Owner& owner) {
@@ -83,8 +86,7 @@ PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, cons
   if (uv == nullptr) {
     fail(ExitCode::invalid_input,
          "object '{}' has no UV layer '{}', which {} was made for; render the scene that was baked, or the "
-         "one "
-         "that the bake saved beside its lightmaps",
+         "one that the bake saved beside its lightmaps",
          object.key, metadata.uv_layer, loaded.file);
   }
   PlacedLightmap result{found.key, owner.object, uv, lightmap_of(loaded.image, metadata)};
@@ -92,8 +94,7 @@ PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, cons
   if (!coverage.empty() && share_on_map(mesh, owner, *uv, coverage) < 0.5) {
     fail(ExitCode::invalid_input,
          "{} does not fit object '{}': most of its faces lie where the lightmap covers nothing; was it made "
-         "of "
-         "another scene, or with other UVs?",
+         "of another scene, or with other UVs?",
          loaded.file, object.key);
   }
   return result;

@@ -12,26 +12,20 @@ import math
 import os
 import re
 import shutil
-import struct
 import subprocess
 import sys
 import unittest
 
-from engine_view import HERE, QUICK, Delivered, EngineView, deliver, delivered_once
+from engine_view import HERE, QUICK, Delivered, EngineView, deliver, delivered_once, embedded, json_of
 from harness import OK, UNSUPPORTED, USAGE, rnmbake, run_blender
 import page_reading
+from pictures import read_picture
 import served
 
 PACKAGES = (served.THREE, "gltf-validator@2.0.0-dev.3.10", "ktx-parse@2.0.0")
 ZSTD_TOO = "ktx2-b10g11r11"  # as which pages are compressed, too
 # UNSUPPORTED_EXTENSION: the lightmap's; the others are hints on what is not used by every reader.
 KNOWN_NOTICES = {"UNSUPPORTED_EXTENSION", "UNUSED_OBJECT", "IMAGE_NPOT_DIMENSIONS"}
-
-
-def json_of(glb):
-    data = glb.read_bytes()
-    (length,) = struct.unpack_from("<I", data, 12)
-    return json.loads(data[20:20 + length])
 
 
 @functools.cache
@@ -85,6 +79,40 @@ class Glb(Delivered):
                 self.assertLessEqual(uv["high"][axis], high + 1e-5, placed["key"])
                 texels = placed["scale"][axis] * self.record["pages"][placed["page"]][size]
                 self.assertAlmostEqual(texels, maps[placed["key"]][size], delta=1e-6)
+
+
+class Nodes(unittest.TestCase):
+    @staticmethod
+    def picture(glb, gltf, material):
+        texture = gltf["textures"][material["pbrMetallicRoughness"]["baseColorTexture"]["index"]]
+        file = glb.parent / "picture.png"
+        file.write_bytes(embedded(glb, gltf["images"][texture["source"]]["bufferView"]))
+        return read_picture(file)
+
+    def test_what_gltf_has_words_for_is_said(self):
+        top, _ = delivered_once("threejs")
+        scene, out = top / "nodes.blend", top / "nodes"
+        run_blender(HERE / "nodes_scene.py", scene)
+        done = deliver("gltf", scene, out, "--resolution", "8")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        gltf = json_of(out / "scene.glb")
+        materials = {one["name"]: one for one in gltf["materials"]}
+        self.assertEqual(materials["outside"]["emissiveFactor"], [1, .5, .25])
+        self.assertEqual(materials["outside"]["extensions"]["KHR_materials_emissive_strength"], {"emissiveStrength": 7})
+        self.assertEqual((materials["leaf"]["alphaMode"], materials["lace"]["alphaMode"]), ("MASK", "BLEND"))
+        self.assertIn("baseColorTexture", materials["leaf"]["pbrMetallicRoughness"])
+        _, _, ((texel, *_), *_) = self.picture(out / "scene.glb", gltf, materials["lace"])
+        self.assertAlmostEqual(texel["A"], .214, delta=1 / 255)  # the luminance of the linear colour
+        self.assertAlmostEqual(texel["R"] / texel["A"], .5, delta=.02)  # oiiotool multiplies by alpha
+        self.assertNotIn("alphaMode", materials["faded"])
+        _, _, ((texel, *_), *_) = self.picture(out / "scene.glb", gltf, materials["faded"])
+        for channel, value in zip("RGB", (.375, .25, .125)):  # times the alpha that nothing asks for, as Cycles shows it
+            self.assertAlmostEqual(texel[channel], value, delta=1 / 255)
+        for name, opacity in (("film", .25), ("veil", .5)):
+            self.assertEqual(materials[name]["alphaMode"], "BLEND")
+            self.assertAlmostEqual(materials[name]["pbrMetallicRoughness"]["baseColorFactor"][3], opacity)
+        (note,) = json.loads((out / "lightmaps.json").read_text())["notes"]
+        self.assertIn("material 'pattern': its light's strength comes out of the node 'Noise Texture'", note)
 
 
 class Again(Delivered):
@@ -216,6 +244,15 @@ class Refusals(Delivered):
 
     def test_no_output(self):
         self.refused(rnmbake("deliver", self.scene, "--engine", "gltf"), USAGE, "-o DIR")
+
+
+class Gltf(EngineView):
+    """MOZ_lightmap alone, by the lightMap that three.js has of its own."""
+
+    ENGINE = "gltf"
+
+    def test_flat_light_is_that_of_render(self):
+        self.assert_same_view("single", flat=True)
 
 
 class ThreeJs(EngineView):
