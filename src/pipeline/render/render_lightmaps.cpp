@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/read_file.h"
 #include "image/sample.h"
+#include "lightmap/fill.h"
 #include "pipeline/lightmaps/lightmap_folder.h"
 #include "pipeline/lightmaps/manifest_file.h"
 #include "pipeline/render/render_surfaces.h"
@@ -96,6 +97,11 @@ PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, cons
          "{} does not fit object '{}': most of its faces lie where the lightmap covers nothing; was it made "
          "of another scene, or with other UVs?",
          loaded.file, object.key);
+  }
+  if (!coverage.empty()) {
+    // Faces between the centres of texels may lie further from a covered one than the file was dilated.
+    for (auto& [name, pixels] : result.lightmap.layers)
+      dilate(pixels, coverage, std::max(coverage.width(), coverage.height()));
   }
   return result;
 }
