@@ -25,9 +25,9 @@ def read_picture(file):
     return width, height, [pixels[y * width:(y + 1) * width] for y in range(height)]
 
 
-def unlike_blocks(picture, light):
+def unlike_blocks(picture, light, black=0):
     """Blocks of the picture that see nothing but surfaces, compared with light(x, y), RGB: how many there are, and
-    (left, top, ratio) of those whose means differ by more than 2 %, or a thousandth of the picture's brightness."""
+    (left, top, ratio) of those whose means differ by more than 2 % and `black` of the picture's brightness."""
     width, height, rows = picture
     brightness = sum(pixel[channel] for row in rows for pixel in row for channel in "RGB") / (width * height)
     compared, off = 0, []
@@ -39,6 +39,6 @@ def unlike_blocks(picture, light):
             expected = sum(rows[y][x][channel] for x, y in block for channel in "RGB")
             seen = sum(sum(light(x, y)) for x, y in block)
             compared += 1
-            if abs(seen - expected) > .02 * expected + .001 * brightness * len(block):
+            if abs(seen - expected) > .02 * expected + black * brightness * len(block):
                 off.append((left, top, seen / expected if expected else seen))
     return compared, off

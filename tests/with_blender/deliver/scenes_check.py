@@ -17,6 +17,7 @@ class Scene:
     """By both targets. Fine enough that a texel at the edge of a chart is no wider than a block of pixels."""
 
     FLAGS = ("--resolution", "256", "--samples", "16")
+    BLACK = .001
 
     @classmethod
     def setUpClass(cls):
