@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-MAPS = ("", "rnm0.", "rnm1.", "rnm2.")
+from lightmaps import MAPS, covered_texels
 
 
 def run(*words):
@@ -28,23 +28,11 @@ def manifest(folder):
     return json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["objects"]
 
 
-def texels(file):
-    """Channels of every covered texel, by name."""
-    said = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", file], check=True, capture_output=True, text=True).stdout
-    names = next(line for line in said.splitlines() if "channel list:" in line).split(":", 1)[1].replace(" ", "").split(",")
-    for line in said.splitlines():
-        if "Pixel (" not in line:
-            continue
-        texel = dict(zip(names, map(float, line.split("):", 1)[1].split()[:len(names)])))
-        if texel["coverage"] > 0:
-            yield texel
-
-
 def within(baked, truth):
     """Values, those of them within two standard errors of the truth, and the mean difference in percent of the mean."""
     count = held = 0
     difference = total = 0.0
-    for a, b in zip(texels(baked), texels(truth)):
+    for a, b in zip(covered_texels(baked), covered_texels(truth)):
         for layer in MAPS:
             error = (layer[:-1] or "flat") + "_stderr."
             for color in "RGB":

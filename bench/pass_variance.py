@@ -12,8 +12,10 @@ import subprocess
 import sys
 import tempfile
 
+from lightmaps import MAPS, covered_texels
+
 SEEDS, STEPS = 12, (32, 64, 128, 256)
-CHANNELS = tuple(layer + color for layer in ("", "rnm0.", "rnm1.", "rnm2.") for color in "RGB")
+CHANNELS = tuple(layer + color for layer in MAPS for color in "RGB")
 
 
 def bake(binary, scene, blender, out, cache, samples, seed):
@@ -27,14 +29,7 @@ def values(out):
     found = []
     manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
     for entry in sorted(manifest["objects"], key=lambda one: one["key"]):
-        file = out / entry["files"][0]
-        info = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", file], check=True, capture_output=True, text=True).stdout
-        names = next(line for line in info.splitlines() if "channel list:" in line).split(":", 1)[1].replace(" ", "").split(",")
-        for line in info.splitlines():
-            if "Pixel (" in line:
-                texel = dict(zip(names, map(float, line.split("):", 1)[1].split()[:len(names)])))
-                if texel["coverage"] > 0:
-                    found += [texel[name] for name in CHANNELS]
+        found += [texel[name] for texel in covered_texels(out / entry["files"][0]) for name in CHANNELS]
     return found
 
 
