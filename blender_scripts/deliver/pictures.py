@@ -2,6 +2,8 @@
 import bpy
 import numpy as np
 
+from deliver.links import hand_over
+
 
 def stored(image):
     """[pixels, channels]"""
@@ -29,8 +31,7 @@ def put_in_place(tree, node, socket, name, pixels, is_data):
     image.pixels.foreach_set(np.column_stack([pixels, np.ones(len(pixels))]).astype(np.float32).ravel())
     own = tree.nodes.new("ShaderNodeTexImage")
     own.image, own.interpolation, own.extension = image, node.interpolation, node.extension
-    if node.inputs["Vector"].is_linked:
-        tree.links.new(node.inputs["Vector"].links[0].from_socket, own.inputs["Vector"])
+    hand_over(tree, node.inputs["Vector"], own.inputs["Vector"])
     tree.links.new(own.outputs["Color"], socket)
 
 

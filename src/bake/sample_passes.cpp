@@ -7,8 +7,9 @@ namespace {
 
 constexpr double shortest_seconds = 10, least_share = 20;  // of a pass; of it in its fixed cost
 
-/// Part of the samples before a pass that it has at least: every pass is a picture to keep and to add up, and
-/// where one sample of a large atlas takes longer than the shortest pass there would be one for each.
+/// A pass has at least the largest power of two within an eighth of the samples before it: every pass is a
+/// picture to keep and to add up, and where one sample of a large atlas takes longer than the shortest pass
+/// there would be one for each.
 constexpr int least_growth = 8;
 
 /// Samples of a pass after `before` that is neither too short nor too dear: a power of two, which suits
