@@ -65,6 +65,10 @@ def is_color(alpha):
 def make_number(tree, alpha):
     """A picture of that number takes the place of the colour."""
     node = alpha.links[0].from_node
-    color = pictures.shown(node)
+    pictures.put_in_place(tree, node, alpha, "as opacity", lambda: luminance(pictures.shown(node)), is_data=True)
+
+
+def luminance(color):
+    """[pixels, 3], all three the same, of sRGB."""
     number = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4) @ LUMINANCE
-    pictures.put_in_place(tree, node, alpha, node.image.name + " as opacity", np.repeat(number[:, None], 3, axis=1), is_data=True)
+    return np.repeat(number[:, None], 3, axis=1)

@@ -90,4 +90,8 @@ void dilate(FloatImage& image, const FloatImage& coverage, int passes) {
   fill_from_neighbours(image, std::move(filled), fillable, static_cast<std::size_t>(std::max(passes, 0)));
 }
 
+void dilate_everywhere(FloatImage& image, const FloatImage& coverage) {
+  dilate(image, coverage, std::max(coverage.width(), coverage.height()));
+}
+
 }  // namespace rnmbake

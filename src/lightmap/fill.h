@@ -26,4 +26,8 @@ std::size_t fill_from_neighbours(FloatImage& image, TexelMask filled, const Texe
 /// at chart borders see light and not background. NaN and Inf are never spread.
 void dilate(FloatImage& image, const FloatImage& coverage, int passes);
 
+/// The same as far as the picture goes, for readers that look between the centres of texels: faces may lie
+/// there. Without a covered texel the image stays.
+void dilate_everywhere(FloatImage& image, const FloatImage& coverage);
+
 }  // namespace rnmbake

@@ -38,6 +38,13 @@ TEST(Printable, ShowsWhatWouldSteerATerminal) {
   EXPECT_EQ(printable("a\nb", true), "a\nb");
 }
 
+TEST(LowerCase, ChangesAsciiLettersAlone) {
+  EXPECT_EQ(lower_case("MateriaLS@[`{09"), "materials@[`{09");
+  EXPECT_EQ(lower_case("ÄÉ.TGA"), "ÄÉ.tga");
+  EXPECT_EQ(lower_extension("Some.DIR/Map.EXR"), ".exr");
+  EXPECT_EQ(lower_extension("Some.DIR/MAP"), "");
+}
+
 TEST(TextTable, ACellIsOneLine) {
   TextTable table;
   table.add({"a\nb", "1"});

@@ -97,6 +97,20 @@ TEST(Dilate, ReachesExactlyAsFarAsAsked) {
   }
 }
 
+TEST(Dilate, EverywhereReachesTheFurthestCorner) {
+  for (const auto& [width, height] : {std::pair{7, 3}, {3, 7}, {1, 6}}) {
+    FloatImage image(width, height, 1), coverage(width, height, 1);
+    image.data()[0] = 5;
+    coverage.data()[0] = 1;
+    dilate_everywhere(image, coverage);
+    EXPECT_EQ(image.data(), std::vector<float>(image.texels(), 5)) << width << "x" << height;
+  }
+  FloatImage image(2, 2, 1), nothing(2, 2, 1);
+  image.data() = {1, 2, 3, 4};
+  dilate_everywhere(image, nothing);
+  EXPECT_EQ(image.data(), (std::vector<float>{1, 2, 3, 4}));
+}
+
 TEST(Dilate, NegativePassesDoNothing) {
   Case c = random_case(5, 5, 0.5, 1);
   const auto before = c.image.data();

@@ -67,7 +67,8 @@ nlohmann::ordered_json PageWriter::write(std::size_t number, const Page& page) {
            "page {}: layer '{}' has values below 0, which {} cannot hold; choose --page-format exr or "
            "ktx2-rgba16f",
            number, said, name_of(form_.format));
-    const std::string file = fmt::format("page{}.{}{}", number, said, ending_of(form_.format));
+    const std::string file =
+        fmt::format("page{}{}{}{}", number, before_layer_, said, ending_of(form_.format));
     const FloatImage seen = write_picture(file, layer.pixels, page);
     PictureComparison comparison;
     comparison.add({&seen}, {&layer.pixels}, {{&page.coverage}});

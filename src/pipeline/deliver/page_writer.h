@@ -29,7 +29,9 @@ class PageWriter {
  public:
   static constexpr const char* flat = "flat";  // the record's name for the encoding without directions
 
-  PageWriter(DeliveryFiles& files, PageForm form) : files_(files), form_(form) {}
+  /// `before_layer` is between "pageN" and the layer in the names of files.
+  PageWriter(DeliveryFiles& files, PageForm form, char before_layer = '.')
+      : files_(files), form_(form), before_layer_(before_layer) {}
 
   [[nodiscard]] static std::string record_name(const Layer& layer) {
     return layer.name.empty() ? flat : layer.name;
@@ -37,8 +39,9 @@ class PageWriter {
 
   [[nodiscard]] const PageForm& form() const { return form_; }
 
-  /// Writes all layers as pageN.LAYER with the format's ending; returns the file of each, by its name. Throws
-  /// Error(unsupported) naming a layer whose values the format cannot hold.
+  /// Writes all layers as pageN.LAYER with the format's ending, or with what else is before the layer;
+  /// returns the file of each, by its name. Throws Error(unsupported) naming a layer whose values the format
+  /// cannot hold.
   [[nodiscard]] nlohmann::ordered_json write(std::size_t number, const Page& page);
 
   /// Of all layers so far.
@@ -52,6 +55,7 @@ class PageWriter {
 
   DeliveryFiles& files_;
   PageForm form_;
+  char before_layer_;
   std::vector<PageLoss> losses_;
 };
 

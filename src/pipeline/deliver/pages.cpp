@@ -183,7 +183,7 @@ Page compose_page(const LightmapFolder& folder, const PageLayout& layout, std::s
              "{} has no layer '{}', which other maps have; bake all with the same settings", loaded.file,
              layer.name);
       FloatImage box = covered_box(found->pixels, coverage, map);
-      dilate(box, covered, std::max(map.box.width, map.box.height));
+      dilate_everywhere(box, covered);
       put_on_page(box, own, map, layer.pixels);
     }
   }

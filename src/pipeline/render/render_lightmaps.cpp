@@ -100,8 +100,7 @@ PlacedLightmap place(const SceneSurvey& survey, const LightmapPlace& found, cons
   }
   if (!coverage.empty()) {
     // Faces between the centres of texels may lie further from a covered one than the file was dilated.
-    for (auto& [name, pixels] : result.lightmap.layers)
-      dilate(pixels, coverage, std::max(coverage.width(), coverage.height()));
+    for (auto& [name, pixels] : result.lightmap.layers) dilate_everywhere(pixels, coverage);
   }
   return result;
 }

@@ -108,11 +108,21 @@ class Nodes(unittest.TestCase):
         _, _, ((texel, *_), *_) = self.picture(out / "scene.glb", gltf, materials["faded"])
         for channel, value in zip("RGB", (.375, .25, .125)):  # times the alpha that nothing asks for, as Cycles shows it
             self.assertAlmostEqual(texel[channel], value, delta=1 / 255)
+        for name in "lace", "faded":
+            of_each = [materials[one]["pbrMetallicRoughness"]["baseColorTexture"]["index"] for one in (name, name + ".001")]
+            self.assertEqual(len({gltf["textures"][index]["source"] for index in of_each}), 1, name)
         for name, opacity in (("film", .25), ("veil", .5)):
             self.assertEqual(materials[name]["alphaMode"], "BLEND")
             self.assertAlmostEqual(materials[name]["pbrMetallicRoughness"]["baseColorFactor"][3], opacity)
         (note,) = json.loads((out / "lightmaps.json").read_text())["notes"]
         self.assertIn("material 'pattern': its light's strength comes out of the node 'Noise Texture'", note)
+
+    def test_materials_share_what_is_made_of_a_picture(self):
+        top, _ = delivered_once("threejs")
+        scene, listing = top / "shared.blend", top / "shared.json"
+        run_blender(HERE / "nodes_scene.py", scene)
+        run_blender(HERE / "made_pictures.py", listing, scene=scene)
+        self.assertEqual(json.loads(listing.read_text()), ["faded times alpha", "lace as opacity"])
 
 
 class Again(Delivered):

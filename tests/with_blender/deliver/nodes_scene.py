@@ -64,6 +64,11 @@ def leaf(name, pixels, output):
     return name
 
 
+def again(name):
+    """Another material that shows the same pictures in the same way."""
+    return bpy.data.materials[name].copy().name
+
+
 def film():
     _, factor = mixture("film", "ShaderNodeBsdfDiffuse", "ShaderNodeBsdfTransparent")
     factor.default_value = .75
@@ -79,7 +84,8 @@ def veil():
 bpy.ops.wm.read_factory_settings(use_empty=True)
 for place, name in enumerate((
         outside_alone(), pattern(), leaf("leaf", [.25, .5, .125, 1] * 8 + [.25, .5, .125, 0] * 8, "Alpha"),
-        leaf("lace", [.5, .5, .5, 1] * 16, "Color"), leaf("faded", [.75, .5, .25, .5] * 16, None), film(), veil())):
+        leaf("lace", [.5, .5, .5, 1] * 16, "Color"), leaf("faded", [.75, .5, .25, .5] * 16, None), film(), veil(), again("lace"),
+        again("faded"))):
     bpy.ops.mesh.primitive_cube_add(location=(4 * place, 0, 0))
     bpy.context.object.name = name
     bpy.context.object.data.materials.append(bpy.data.materials[name])

@@ -1,13 +1,12 @@
 #include "pipeline/deliver/engines/source.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image/vtf.h"
 #include "pipeline/deliver/engines/shipped_files.h"
 #include "pipeline/deliver/page_texels.h"
 #include "shaders/engines.h"
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -78,9 +77,7 @@ std::string source_texture_folder(const fs::path& folder) {
   std::string below;
   bool is_below = false;
   for (const fs::path& step : whole) {
-    std::string lower = step.string();
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (lower == "materials") {
+    if (lower_case(step.string()) == "materials") {
       is_below = true;
       below.clear();
     } else if (is_below) {

@@ -4,8 +4,6 @@
 #include "pipeline/deliver/engines/unreal_names.h"
 #include "pipeline/deliver/engines/web_decoder.h"
 
-#include <spdlog/fmt/fmt.h>
-
 namespace rnmbake {
 
 const std::vector<std::string>& Unreal::encodings() const {
@@ -18,14 +16,7 @@ const std::vector<std::string>& Unreal::encodings() const {
 }
 
 nlohmann::ordered_json Unreal::write_page(DeliveryFiles& files, std::size_t number, Page page) const {
-  nlohmann::ordered_json names = nlohmann::ordered_json::object();
-  for (const Layer& layer : page.layers) {
-    const std::string said = PageWriter::record_name(layer);
-    const std::string file = fmt::format("page{}_{}.exr", number, said);
-    write_exr(files.add(file), {{{"", {"R", "G", "B"}, layer.pixels}}, {}}, Depth::half);
-    names[said] = file;
-  }
-  return names;
+  return PageWriter(files, {.format = PageFormat::exr}, '_').write(number, page);
 }
 
 void Unreal::add_files(DeliveryFiles& files, nlohmann::ordered_json& record) const {

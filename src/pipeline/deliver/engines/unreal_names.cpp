@@ -1,6 +1,7 @@
 #include "pipeline/deliver/engines/unreal_names.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,16 +9,6 @@
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
-namespace {
-
-/// Letters beyond ASCII keep their case: such a name is found as it is.
-std::string without_case(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return name;
-}
-
-}  // namespace
 
 std::string unreal_name(std::string_view name) {
   std::string valid(name);
@@ -32,11 +23,11 @@ std::string unreal_name(std::string_view name) {
 
 UnrealNames::UnrealNames(const GlbNodes& nodes) : nodes_(nodes) {
   for (std::size_t node = 0; node < nodes.size(); ++node)
-    nodes_by_name_.emplace(without_case(unreal_name(nodes.name(node))), node);
+    nodes_by_name_.emplace(lower_case(unreal_name(nodes.name(node))), node);
 }
 
 void UnrealNames::check(std::size_t node) const {
-  const auto [first, end] = nodes_by_name_.equal_range(without_case(unreal_name(nodes_.name(node))));
+  const auto [first, end] = nodes_by_name_.equal_range(lower_case(unreal_name(nodes_.name(node))));
   if (std::distance(first, end) > 1)
     fail(ExitCode::unsupported,
          "Unreal calls the objects '{}' and '{}' the same, '{}', but for letters' case; rename one",
