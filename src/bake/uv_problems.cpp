@@ -7,6 +7,12 @@
 #include <spdlog/fmt/fmt.h>
 
 namespace rnmbake {
+namespace {
+
+/// Fewer are slips of modelling that cost next to nothing.
+constexpr std::size_t fewest_doubled = 50;  // one of these
+
+}  // namespace
 
 std::vector<UvProblem> uv_problems(const UvReport& report, int side, int wanted_side) {
   using Kind = UvProblem::Kind;
@@ -20,6 +26,7 @@ std::vector<UvProblem> uv_problems(const UvReport& report, int side, int wanted_
   add(Kind::outside, in_tiles ? 0 : static_cast<std::size_t>(std::lround(report.outside_texels)));
   add(Kind::no_uv_area, report.degenerate_uv);
   add(Kind::no_area, report.degenerate_world);
+  add(Kind::doubled, report.doubled * fewest_doubled > report.triangles ? report.doubled : 0);
   add(Kind::capped, wanted_side > side ? static_cast<std::size_t>(wanted_side) : 0);
   add(Kind::mirrored, report.mirrored_charts);
   return problems;
@@ -38,6 +45,9 @@ std::string spoken(const UvProblem& problem) {
       return counted(problem.count, "triangle") + " without UV area";
     case Kind::no_area:
       return counted(problem.count, "triangle") + " without area";
+    case Kind::doubled:
+      return counted(problem.count, "triangle") +
+             (problem.count == 1 ? " lies on another" : " lie on others");
     case Kind::capped:
       return fmt::format("texels_per_unit wants {0} x {0}", problem.count);
     case Kind::mirrored:
@@ -59,6 +69,9 @@ const char* remedy(UvProblem::Kind kind) {
       return "what lies outside is lost: scale the UVs into the square, or pass --unwrap always";
     case Kind::no_uv_area:
       return "these faces get no texel: unwrap them, or pass --unwrap always";
+    case Kind::doubled:
+      return "engines flicker between the two, and both take texels: keep one of them (Merge by Distance in "
+             "Blender)";
     case Kind::capped:
       return "the lightmap is coarser than asked for: raise --max-resolution, or split the object";
     case Kind::no_area:

@@ -95,6 +95,7 @@ json uv_json(const UvReport& uv) {
       {"outside_corners", uv.outside_corners},
       {"degenerate_uv_triangles", uv.degenerate_uv},
       {"degenerate_triangles", uv.degenerate_world},
+      {"doubled_triangles", uv.doubled},
       {"uv_area", uv.uv_area},
       {"world_area", uv.world_area},
       {"texels_per_unit", {{"min", uv.density.min}, {"median", uv.density.median}, {"max", uv.density.max}}}};

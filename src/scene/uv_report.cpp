@@ -117,6 +117,25 @@ void count_charts(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
   }
 }
 
+/// A triangle on the back of another is a leaf's other side and not counted.
+void count_doubled(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+                   const std::vector<TriangleAreas>& areas, UvReport& report) {
+  std::vector<std::size_t> solid;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (!areas[i].flat_world) solid.push_back(3 * std::size_t(triangles[i]));
+  const std::vector<std::uint32_t> place = weld<3>(3 * solid.size(), [&](std::size_t corner) {
+    const Vec3& p = mesh.positions[mesh.corner_vertex(solid[corner / 3] + corner % 3)];
+    return std::array{weld_bits(p.x), weld_bits(p.y), weld_bits(p.z)};
+  });
+  const std::vector<std::uint32_t> number = weld<3>(solid.size(), [&](std::size_t i) {
+    std::array corners{place[3 * i], place[3 * i + 1], place[3 * i + 2]};
+    std::ranges::rotate(corners, std::ranges::min_element(corners));  // whichever of them is the first
+    return corners;
+  });
+  const std::size_t different = number.empty() ? 0 : *std::ranges::max_element(number) + std::size_t{1};
+  report.doubled = solid.size() - different;
+}
+
 TexelDensity density_of(const std::vector<TriangleAreas>& areas, double texels) {
   std::vector<std::pair<double, double>> densities;  // density, world area
   double total = 0;
@@ -181,6 +200,7 @@ UvReport report_uv(const Mesh& mesh, const std::vector<std::uint32_t>& triangles
   report.all_zero = !corner_uv.empty() && std::all_of(corner_uv.begin(), corner_uv.end(),
                                                       [&](const Vec2& p) { return p == corner_uv.front(); });
   count_triangles(areas, report);
+  count_doubled(mesh, triangles, areas, report);
   count_texels(corner_uv, width, height, report);
   count_charts(mesh, triangles, corner_uv, areas, report);
   report.density = density_of(areas, texels);

@@ -31,6 +31,7 @@ struct UvReport {
   std::size_t mirrored_charts = 0;   // their UVs wind against the faces
   std::size_t degenerate_uv = 0;     // triangles that have area in the world and none in UV
   std::size_t degenerate_world = 0;  // triangles without area in the world
+  std::size_t doubled = 0;           // triangles on an earlier one: the same corners, seen from the same side
   bool all_zero = false;             // every corner at one and the same place: not unwrapped
 
   /// Nothing in the way of a lightmap without bleeding or loss.

@@ -3,6 +3,8 @@
 #include "scene/loose_parts.h"
 #include "scene/test_meshes.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 namespace rnmbake {
@@ -74,6 +76,45 @@ TEST(UvReport, TellsDegenerateFacesFromDegenerateUvs) {
   mesh.positions[3] = {0, 0, 0};  // on the diagonal
   EXPECT_EQ(report_uv(mesh, square_uv(), {}, 8, 8).degenerate_world, 1U);
   EXPECT_EQ(report_uv(mesh, square_uv(), {}, 8, 8).degenerate_uv, 0U);
+}
+
+/// The square, and each of these triangles on places of its own.
+Mesh square_and(const std::vector<std::array<Vec3, 3>>& more) {
+  Mesh mesh = square();
+  std::vector<Vec3> positions = mesh.positions;
+  std::vector<std::uint32_t> corners = mesh.loop_vertex;
+  for (const auto& triangle : more) {
+    for (const Vec3& p : triangle) {
+      corners.push_back(static_cast<std::uint32_t>(positions.size()));
+      positions.push_back(p);
+    }
+  }
+  return triangle_mesh(positions, corners, std::vector<Vec3>(corners.size(), Vec3(0, 0, 1)));
+}
+
+std::size_t doubled(const std::vector<std::array<Vec3, 3>>& more) {
+  const Mesh mesh = square_and(more);
+  return report_uv(mesh, std::vector<Vec2>(mesh.loop_vertex.size(), Vec2(0)), scaled(1, -2, 1), 8, 8).doubled;
+}
+
+TEST(UvReport, CountsTrianglesOnOthersThatAreSeenFromTheSameSide) {
+  const Vec3 a(-1, -1, 0), b(1, -1, 0), c(1, 1, 0), d(-1, 1, 0);  // of the square
+  EXPECT_EQ(doubled({}), 0U);
+  EXPECT_EQ(doubled({{a, b, c}}), 1U);
+  EXPECT_EQ(doubled({{b, c, a}, {c, a, b}, {d, a, c}}), 3U) << "wherever they begin";
+  EXPECT_EQ(doubled({{c, b, a}, {d, c, a}}), 0U) << "back to back";
+  EXPECT_EQ(doubled({{c, b, a}, {b, a, c}}), 1U) << "one of two on the back";
+  EXPECT_EQ(doubled({{a, b, d}, {a, b, Vec3(1, 1, 1e-6F)}}), 0U) << "two corners in common";
+  EXPECT_EQ(doubled({{a, b, Vec3(1, 1, -0.0F)}}), 1U);
+  EXPECT_EQ(doubled({{a, a, b}, {a, a, b}}), 0U) << "without area";
+}
+
+TEST(UvReport, ADoubleInAnotherPartIsNotCounted) {
+  const Vec3 a(-1, -1, 0), b(1, -1, 0), c(1, 1, 0);
+  const Mesh mesh = square_and({{a, b, c}});
+  const std::vector<Vec2> uv(mesh.loop_vertex.size(), Vec2(0));
+  EXPECT_EQ(report_uv(mesh, {0, 2}, uv, {}, 8, 8).doubled, 1U);
+  EXPECT_EQ(report_uv(mesh, {1, 2}, uv, {}, 8, 8).doubled, 0U);
 }
 
 TEST(UvReport, OfNoFacesIsEmpty) {

@@ -37,7 +37,8 @@ json uv_json(const Target& target) {
   return {
       {"overlap_texels", report.overlap_texels},         {"outside_texels", report.outside_texels},
       {"udim_triangles", report.tile_triangles},         {"degenerate_uv_triangles", report.degenerate_uv},
-      {"degenerate_triangles", report.degenerate_world}, {"wanted_resolution", target.wanted_side}};
+      {"degenerate_triangles", report.degenerate_world}, {"doubled_triangles", report.doubled},
+      {"wanted_resolution", target.wanted_side}};
 }
 
 json timings_of(const BakeRecord& bake) {

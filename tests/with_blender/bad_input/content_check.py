@@ -46,6 +46,13 @@ class Content(BadInput):
         self.assertEqual(entry["uv"]["degenerate_triangles"], 1)
         self.assertGreater(entry["coverage"], 0.5)
 
+    def test_faces_on_others(self):
+        ended = self.bake("doubled.blend", "--save-scene", "never")
+        self.assertEqual(ended.code, OK, ended.err)
+        self.assertIn("kit: 2 triangles lie on others; engines flicker between the two", ended.err)
+        self.assertEqual({entry["object"]: entry["uv"]["doubled_triangles"] for entry in self.manifest()["objects"]},
+                         {"kit": 2, "leaf": 0})
+
     def test_nothing_gives_light(self):
         self.assert_refused(self.bake("dark.blend"), INVALID_INPUT, "dark.blend", "--allow-dark")
         ended = self.bake("dark.blend", "--allow-dark")

@@ -77,6 +77,15 @@ def no_area(_folder):
     link(bpy.data.objects.new("partly", mesh))
 
 
+def doubled(_folder):
+    """A square that is there twice, and one with another on its back."""
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    for name, second in (("kit", (4, 5, 6, 7)), ("leaf", (6, 5, 4, 7))):
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(2 * points, [], [(0, 1, 2, 3), second])
+        link(bpy.data.objects.new(name, mesh)).location.x = 2 * (name == "leaf")
+
+
 def dark(_folder):
     card("floor")
     bpy.data.lights["sun"].energy = 0
@@ -160,7 +169,7 @@ def show_as_saved(modifier):
 
 
 def main(folder):
-    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, no_area, dark, nan_vertex, names, autorun, driver,
+    for build in (good, no_meshes, no_faces, some_faces, zero_uvs, no_area, doubled, dark, nan_vertex, names, autorun, driver,
                   device, simulations, paint):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         sun()
