@@ -39,9 +39,13 @@ def deliver(engine, source, out, *flags):
     return rnmbake("deliver", source, "--engine", engine, "-o", out, *QUICK, *flags)
 
 
-@functools.cache
 def delivered_once(engine, source=PANELS, flags=()):
     """A temporary folder and the scene in it, made matt and delivered into site/."""
+    return delivered(engine, source, flags)
+
+
+@functools.cache  # which holds calls for others that leave out what is the default
+def delivered(engine, source, flags):
     folder = tempfile.TemporaryDirectory(prefix="rnmbake-deliver-")
     unittest.addModuleCleanup(folder.cleanup)
     top = Path(folder.name)

@@ -26,7 +26,7 @@ if (parsed.supercompressionScheme === 2) {
 console.log(JSON.stringify({ ...parsed, levels: parsed.levels.map((level) => Buffer.from(decode(level)).toString('base64')),
                              stored: parsed.levels.map((level) => level.levelData.length) }));
 """
-RGBA16F, B10G11R11, BC6H_UF, BC6H_SF = 97, 122, 143, 144
+RGBA16F, B10G11R11, E5B9G9R9, BC6H_UF, BC6H_SF = 97, 122, 123, 143, 144
 TEXEL_BYTES = {RGBA16F: 8, B10G11R11: 4, BC6H_UF: 1, BC6H_SF: 1}
 
 
@@ -52,7 +52,8 @@ def level_texels(parsed, level, folder):
         return blocks(data, width, height, format_ == BC6H_SF, folder)
     if format_ == RGBA16F:
         return [texel[:3] for texel in struct.iter_unpack("<4e", data)]
-    return [b10g11r11(bits) for (bits,) in struct.iter_unpack("<I", data)]
+    unpack = e5b9g9r9 if format_ == E5B9G9R9 else b10g11r11
+    return [unpack(bits) for (bits,) in struct.iter_unpack("<I", data)]
 
 
 def b10g11r11(bits):
@@ -60,6 +61,10 @@ def b10g11r11(bits):
         exponent, rest = value >> mantissa, value & (1 << mantissa) - 1
         return math.ldexp(rest, -14 - mantissa) if exponent == 0 else math.ldexp(rest + (1 << mantissa), exponent - 15 - mantissa)
     return small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6), small_float(bits >> 22, 5)
+
+
+def e5b9g9r9(bits):
+    return tuple(math.ldexp(bits >> shift & 511, (bits >> 27) - 24) for shift in (0, 9, 18))
 
 
 def blocks(data, width, height, is_signed, folder):
