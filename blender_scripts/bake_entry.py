@@ -46,7 +46,8 @@ def guard_faces(task, scene, guards):
 
 def bake_receivers(task, scene):
     cycles.apply_settings(scene, task.request["cycles"])
-    sheets_ = [sheets.Sheet(task, scene, atlas) for atlas in task.request["atlases"]]
+    kind = sheets.MirrorSheet if task.request["cycles"]["mirrors"] else sheets.Sheet
+    sheets_ = [kind(task, scene, atlas) for atlas in task.request["atlases"]]
     texels = sum(sheet.texels for sheet in sheets_)
     total = sum(part["count"] for part in task.request["passes"]) * texels
     done = 0

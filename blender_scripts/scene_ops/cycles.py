@@ -1,6 +1,7 @@
 """Cycles as an irradiance meter: every default that biases a bake is turned off."""
 import math
 import os
+from array import array
 
 import bpy
 
@@ -25,7 +26,7 @@ def apply_settings(scene, settings):
     cycles.seed = settings["seed"]
     cycles.sample_clamp_direct = settings["clamp"]
     cycles.sample_clamp_indirect = settings["clamp"]
-    _set_bounces(cycles, settings["bounces"])
+    set_bounces(cycles, settings["bounces"])
     _remove_bias(cycles)
     use_device(scene, settings["device"])
 
@@ -49,13 +50,6 @@ def _put_back(cycles):
         name = prop.identifier
         if not prop.is_readonly and name not in FOLLOWED and not name.startswith("preview_"):
             cycles.property_unset(name)
-
-
-def _set_bounces(cycles, bounces):
-    cycles.max_bounces = bounces
-    cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, LAYERS)
-    for lobe in ("diffuse", "glossy", "transmission"):
-        setattr(cycles, lobe + "_bounces", bounces)
 
 
 def _remove_bias(cycles):
@@ -89,8 +83,24 @@ def use_device(scene, device):
     scene.cycles.device = "GPU"
 
 
+def set_bounces(cycles, bounces):
+    cycles.max_bounces = bounces
+    cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, LAYERS)
+    for lobe in ("diffuse", "glossy", "transmission"):
+        setattr(cycles, lobe + "_bounces", bounces)
+
+
 def bake_diffuse(scene, target, clear=True):
     """Bake direct + indirect diffuse light of the active object into its active image. Units: E/pi."""
+    _bake("DIFFUSE", scene, target, clear)
+
+
+def bake_glossy(scene, target, clear=True):
+    """... glossy light. Units: radiance, of a white perfect mirror. INDIRECT alone loses nearly all of it in 3.4."""
+    _bake("GLOSSY", scene, target, clear)
+
+
+def _bake(kind, scene, target, clear):
     view_layer = bpy.context.view_layer
     for other in view_layer.objects:
         other.select_set(False)
@@ -98,7 +108,7 @@ def bake_diffuse(scene, target, clear=True):
     view_layer.objects.active = target
     scene.render.bake.use_selected_to_active = False
     outcome = bpy.ops.object.bake(
-        type="DIFFUSE", pass_filter={"DIRECT", "INDIRECT"}, margin=0, use_clear=clear,
+        type=kind, pass_filter={"DIRECT", "INDIRECT"}, margin=0, use_clear=clear,
         target="IMAGE_TEXTURES", save_mode="INTERNAL")
     if outcome != {"FINISHED"}:
         raise Refusal(f"Blender cancelled the bake of '{target.name}'", object_name=target.name)
@@ -117,11 +127,19 @@ def new_float_image(name, width, height):
     return image
 
 
-def save_pixels(image, path):
-    """RGBA, 32-bit float, bottom row first, no header. The file appears when it is whole."""
-    from array import array
+def read_pixels(image):
+    """RGBA, 32-bit float, bottom row first."""
     pixels = array("f", bytes(16 * image.size[0] * image.size[1]))
     image.pixels.foreach_get(pixels)
+    return pixels
+
+
+def save_pixels(image, path):
+    write_pixels(read_pixels(image), path)
+
+
+def write_pixels(pixels, path):
+    """No header. The file appears when it is whole."""
     with open(path + ".part", "wb") as stream:
         pixels.tofile(stream)
     os.replace(path + ".part", path)

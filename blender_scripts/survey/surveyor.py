@@ -11,6 +11,7 @@ from scene_ops.keys import NAME_PROPERTY, Keys, instancer_of, material_name, sho
 from scene_ops.light_linking import Choices
 from scene_ops.render_depsgraph import with_render_depsgraph
 from survey.digest import SceneDigest
+from survey.gather import GatherNotes, is_even
 from survey.mesh_file import MeshFile
 
 FORMAT = 1
@@ -27,6 +28,7 @@ class Surveyor:
         self.meshes = MeshFile(task.path("survey.bin"))
         self.objects, self.lights, self.probe_places, self.warnings = [], [], [], []
         self.material_names = set()
+        self.gather = GatherNotes()
         self._keys, self._choices = Keys(), Choices()
 
     def visit(self, depsgraph):
@@ -41,6 +43,7 @@ class Surveyor:
                 self.probe_places.append(place)
         for instance in shown_surfaces(depsgraph):
             self.add_surface(instance, instance.object)
+        self.gather.visit(depsgraph)
 
     def finish(self):
         """After the visit; the file is complete then."""
@@ -65,6 +68,7 @@ class Surveyor:
             "slots": slots,
             "light_group": self._choices.light_group(original, instance.parent and instance.parent.original),
             "visible_to_camera": bool(ob.visible_camera),
+            "visible_to_bounces": bool(ob.visible_diffuse),
         })
 
 
@@ -101,10 +105,12 @@ def survey_scene(task, surveyor=None):
         "data_bytes": surveyor.meshes.bytes_written,
         "meshes": surveyor.meshes.entries,
         "objects": surveyor.objects,
-        "materials": {material_name(material): describe_material(material) for material in wanted},
+        "materials": {material_name(material): {**describe_material(material), "even": is_even(material)}
+                      for material in wanted},
         "lights": surveyor.lights,
         "probe_places": surveyor.probe_places,
         "world": describe_world(scene.world),
+        "gather": surveyor.gather.finish(scene, wanted),
         "warnings": surveyor.warnings,
     }
 

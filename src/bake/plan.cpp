@@ -79,6 +79,7 @@ void group_tasks(Plan& plan, BakingSettings::Dispatch mode) {
     return mode == Mode::scene || first.target == task.target;
   };
   for (std::size_t u = 0; u < plan.tasks.size(); ++u) {
+    if (plan.tasks[u].cycles.mirrors) continue;  // group_mirrors()
     const auto found = std::find_if(plan.batches.begin(), plan.batches.end(),
                                     [&](const Batch& d) { return belongs(d, plan.tasks[u]); });
     if (found != plan.batches.end()) {
@@ -91,8 +92,8 @@ void group_tasks(Plan& plan, BakingSettings::Dispatch mode) {
 
 BakingSettings::Dispatch resolve_dispatch(const BakingSettings& settings) {
   if (settings.dispatch != BakingSettings::Dispatch::automatic) return settings.dispatch;
-  return settings.recipe == BakingSettings::Recipe::receiver ? BakingSettings::Dispatch::scene
-                                                             : BakingSettings::Dispatch::object;
+  return settings.recipe == BakingSettings::Recipe::flat_normal_map ? BakingSettings::Dispatch::object
+                                                                    : BakingSettings::Dispatch::scene;
 }
 
 std::int64_t texels_of(const Plan& plan, const std::vector<std::size_t>& rects) {

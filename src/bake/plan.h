@@ -24,6 +24,7 @@ struct CyclesSettings {
   std::string device = "CPU";
   bool lamps = true;  // whether lamp objects give light
   double noise = 0;   // relative standard error that is enough, a share; 0: `samples` decide
+  bool mirrors = false;  // receivers are mirrors; what they meet at once does not count (bake/mirrors.h)
   bool operator==(const CyclesSettings&) const = default;
 };
 

@@ -12,20 +12,22 @@ namespace {
 constexpr std::array<std::array<int, 2>, 3> corners{{{-1, -1}, {1, -1}, {0, 1}}};
 constexpr double uv_reach = 0.4;  // texels from the centre of the texel to the corners, along each axis
 
-void append(std::vector<ReceiverCorner>& out, const Vec3d& point, const Vec3& direction, std::size_t texel,
-            const RectSize& map) {
+}  // namespace
+
+std::array<ReceiverCorner, 3> point_receiver(const Vec3d& point, const Vec3& direction, double size,
+                                             std::size_t texel, const RectSize& map) {
   const FaceAxes axes = face_axes(direction);
-  const double size = point_receiver_size(point);
   const auto width = static_cast<std::size_t>(map.width);
   const double x = double(texel % width) + 0.5, y = double(texel / width) + 0.5;
-  for (const auto& [u, v] : corners) {
+  std::array<ReceiverCorner, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [u, v] = corners[k];
     const Vec3d place = point + Vec3d(axes.t1) * (size * u) + Vec3d(axes.t2) * (size * v);
-    out.push_back({Vec3(place), direction,
-                   Vec2(float((x + uv_reach * u) / map.width), float((y + uv_reach * v) / map.height))});
+    out[k] = {Vec3(place), direction,
+              Vec2(float((x + uv_reach * u) / map.width), float((y + uv_reach * v) / map.height))};
   }
+  return out;
 }
-
-}  // namespace
 
 RectSize point_map(std::size_t points) {
   const auto width = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(points))));
@@ -44,7 +46,11 @@ ReceiverPasses make_point_receivers(std::span<const Vec3d> points, std::span<con
   for (std::size_t d = 0; d < directions.size(); ++d) {
     std::vector<ReceiverCorner> triangles;
     triangles.reserve(3 * points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) append(triangles, points[i], directions[d], i, map);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto three =
+          point_receiver(points[i], directions[d], point_receiver_size(points[i]), i, map);
+      triangles.insert(triangles.end(), three.begin(), three.end());
+    }
     result.passes.push_back({ReceiverPass::Role::basis, d, std::move(triangles)});
   }
   return result;

@@ -8,6 +8,7 @@
 #include "bake/atlas.h"
 #include "bake/receiver.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -24,6 +25,12 @@ namespace rnmbake {
 /// which is what Cycles itself may move the start of a ray by. Near the origin 1e-6, where the square of an
 /// area is no denormal number yet.
 [[nodiscard]] double point_receiver_size(const Vec3d& point);
+
+/// Three corners around `point`, `size` away along each axis across `direction`, which is their normal. Their
+/// UVs stay inside the point's texel of `map`, whose centre maps to the point.
+[[nodiscard]] std::array<ReceiverCorner, 3> point_receiver(const Vec3d& point, const Vec3& direction,
+                                                           double size, std::size_t texel,
+                                                           const RectSize& map);
 
 /// One pass with role basis for each direction (unit, world space); its triangles are in the order of the
 /// points, and the centre of a point's texel maps to the point.

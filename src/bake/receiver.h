@@ -27,12 +27,22 @@ struct ReceiverCorner {
   Vec2 uv;                // lightmap UV, v up, inside [0,1]
 };
 
+/// A receiver that shows the radiance that arrives along one ray: a mirror of its own texel (bake/mirrors.h).
+struct Mirror {
+  Vec3 position, direction;  // of the ray, world space; unit
+};
+
 /// One picture to bake of a target.
 struct ReceiverPass {
-  enum class Role { basis, below, moment };
+  enum class Role { basis, below, moment, mirrors };
   Role role = Role::basis;
-  std::size_t basis = 0;  // index into the list of bases; for a moment: 0..4 = t1, -t1, t2, -t2, face normal
+  std::size_t basis = 0;  // index into the list of bases; for a moment: 0..4 = t1, -t1, t2, -t2, face normal;
+                          // of mirrors: the half that they belong to
   std::vector<ReceiverCorner> corners;  // three for each triangle
+  std::vector<Mirror> mirrors = {};     // in place of corners: one triangle each, in the order of texels
+  bool meets_light = false;             // mirrors may show a lamp, the sky or what glows at once
+
+  [[nodiscard]] std::size_t triangles() const { return corners.size() / 3 + mirrors.size(); }
 };
 
 struct HorizonCounts {

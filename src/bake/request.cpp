@@ -1,5 +1,6 @@
 #include "bake/request.h"
 
+#include "bake/mirrors.h"
 #include "base/error.h"
 #include "base/numeric/row_order.h"
 #include "config/recipe_names.h"
@@ -59,9 +60,10 @@ std::string pixels_name(std::size_t pass, std::size_t picture) {
 class JoinedCorners {
  public:
   void add(const AtlasRect& rect, const RectSize& map, const Placement& place) {
-    parts_.push_back({&rect.pass.corners, Vec2(static_cast<float>(map.width), static_cast<float>(map.height)),
+    const RectSize& of = rect.pass.mirrors.empty() ? map : rect.size;
+    parts_.push_back({&rect, Vec2(static_cast<float>(of.width), static_cast<float>(of.height)),
                       Vec2(static_cast<float>(place.x - rect.x), static_cast<float>(place.y - rect.y))});
-    count_ += rect.pass.corners.size();
+    count_ += 3 * rect.pass.triangles();
   }
   [[nodiscard]] std::size_t count() const { return count_; }
 
@@ -76,8 +78,8 @@ class JoinedCorners {
 
  private:
   struct Part {
-    const std::vector<ReceiverCorner>* corners;
-    Vec2 size, shift;  // texels of the map; from there to the atlas
+    const AtlasRect* rect;
+    Vec2 size, shift;  // texels that UVs count in; from there to the atlas
   };
 
   template <typename T, typename Value>
@@ -85,7 +87,12 @@ class JoinedCorners {
     std::vector<T> values;
     for (const Part& part : parts_) {
       values.clear();
-      for (const ReceiverCorner& corner : *part.corners) values.push_back(value(part, corner));
+      const ReceiverPass& pass = part.rect->pass;
+      for (const ReceiverCorner& corner : pass.corners) values.push_back(value(part, corner));
+      for (std::size_t i = 0; i < pass.mirrors.size(); ++i) {
+        for (const ReceiverCorner& corner : mirror_triangle(pass.mirrors[i], i, part.rect->size))
+          values.push_back(value(part, corner));
+      }
       out.write(std::span<const T>(values));
     }
   }
@@ -130,7 +137,7 @@ json write_atlas(const Plan& plan, const BatchLayout& layout, std::size_t atlas,
     if (joined.count() == 0) continue;  // all its triangles lie between the centres of texels
     joined.write(out, size);
     json parts = json::array();
-    for (const std::size_t i : members) parts.push_back({i, plan.rects[layout.rects[i]].pass.corners.size()});
+    for (const std::size_t i : members) parts.push_back({i, 3 * plan.rects[layout.rects[i]].pass.triangles()});
     groups.push_back({{"corners", joined.count()}, {"light_group", group}, {"parts", parts}});
   }
   out.close();
@@ -230,7 +237,8 @@ std::vector<float> read_pixels(const fs::path& file, const RectSize& size) {
 
 nlohmann::json to_json(const CyclesSettings& settings) {
   return {{"samples", settings.samples}, {"bounces", settings.bounces}, {"seed", settings.seed},
-          {"clamp", settings.clamp},     {"device", settings.device},   {"lamps", settings.lamps}};
+          {"clamp", settings.clamp},     {"device", settings.device},   {"lamps", settings.lamps},
+          {"mirrors", settings.mirrors}};
 }
 
 BakeRequest receiver_request(const Plan& plan, const Batch& batch, std::int64_t max_pixels,
@@ -238,13 +246,17 @@ BakeRequest receiver_request(const Plan& plan, const Batch& batch, std::int64_t 
   BakeRequest request{base_request(batch, plan, name_of(BakingSettings::Recipe::receiver)),
                       {rects_of(batch, plan), {}}};
   request.json["absent"] = plan.absent;
-  if (plan.guards) {
+  if (plan.guards && !plan.tasks[batch.tasks.front()].cycles.mirrors) {
     request.json["guards"] = {{"glow_heights", plan.guards->glow_heights},
                               {"fences", write_fences(plan.guards->fences, batch, plan, folder)}};
   }
   std::vector<RectSize> sizes;
   for (const std::size_t rect : request.layout.rects) sizes.push_back(plan.rects[rect].size);
   request.layout.atlas = pack(sizes, max_pixels);
+  request.json["meets_light"] = json::array();
+  for (std::size_t i = 0; i < request.layout.rects.size(); ++i) {
+    if (plan.rects[request.layout.rects[i]].pass.meets_light) request.json["meets_light"].push_back(i);
+  }
   request.json["atlases"] = json::array();
   for (std::size_t atlas = 0; atlas < request.layout.atlas.atlases.size(); ++atlas) {
     request.json["atlases"].push_back(write_atlas(plan, request.layout, atlas, folder));

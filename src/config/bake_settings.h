@@ -51,7 +51,7 @@ struct SceneSettings {
 
 struct BakingSettings {
   enum class Engine { cycles, embree };
-  enum class Recipe { receiver, flat_normal_map };
+  enum class Recipe { automatic, receiver, gather, flat_normal_map };
   enum class Dispatch { automatic, basis, object, scene };
   enum class Device { cpu, cuda, optix, hip, metal, oneapi };
   enum class DirectionSet { rnm, l1, h6, sg, sh3, study };

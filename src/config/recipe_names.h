@@ -14,7 +14,17 @@ inline constexpr const char* flat_normal_map_name =
 inline constexpr const char* traced_name = "traced";  // as a recipe: a bake by the tracer
 
 [[nodiscard]] constexpr const char* name_of(BakingSettings::Recipe recipe) {
-  return recipe == BakingSettings::Recipe::receiver ? "receiver" : flat_normal_map_name;
+  switch (recipe) {
+    case BakingSettings::Recipe::automatic:
+      return "auto";
+    case BakingSettings::Recipe::receiver:
+      return "receiver";
+    case BakingSettings::Recipe::gather:
+      return "gather";
+    case BakingSettings::Recipe::flat_normal_map:
+      break;
+  }
+  return flat_normal_map_name;
 }
 
 [[nodiscard]] constexpr const char* name_of(BakingSettings::Engine engine) {

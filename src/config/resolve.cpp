@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "config/recipe_names.h"
 #include "config/sun.h"
 
 #include <algorithm>
@@ -150,10 +151,12 @@ void ResolvedConfig::check_open_end() const {
   if (!time.empty() && !parse_duration(time))
     fail(ExitCode::usage, "{}: time = '{}' is no length of time; give seconds, or 90s, 10m, 2h",
          provenance("time"), time);
-  if (globals.bake.recipe == BakingSettings::Recipe::receiver) return;
+  using Recipe = BakingSettings::Recipe;
+  const Recipe recipe = globals.bake.recipe;
+  if (recipe != Recipe::gather && recipe != Recipe::flat_normal_map) return;
   if (!time.empty() || globals.object.noise > 0)
-    fail(ExitCode::usage, "{}: flat-normal-map is baked in one piece; give --samples in place of {}",
-         provenance("recipe"), time.empty() ? "--noise" : "--time");
+    fail(ExitCode::usage, "{}: {} is baked with as many samples as it begins with; give --samples in place of {}",
+         provenance("recipe"), name_of(recipe), time.empty() ? "--noise" : "--time");
 }
 
 void ResolvedConfig::check_together() const {

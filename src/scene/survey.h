@@ -18,6 +18,7 @@ struct MaterialInfo {
   bool normal_mapped = false;
   bool emissive = false;
   std::vector<std::string> outside_model;  // "glossy", "transmission", ...: not plain diffuse + emission
+  bool even = false;  // what it reflects is the same to all who see one side of it, and nothing shines through
 };
 
 struct LightInfo {
@@ -51,6 +52,14 @@ struct SceneObject {
   std::vector<std::string> slots;  // material name of each slot, "" for an empty one
   std::string light_group;         // names the light-linking collections; "" when there are none
   bool visible_to_camera = true;
+  bool visible_to_bounces = true;  // to diffuse rays, and to those that mirrors send
+};
+
+/// What recipe gather must know of a scene, one line for each thing that names it.
+struct GatherNotes {
+  std::vector<std::string> refused;   // light that mirrors would not see as receivers do
+  std::vector<std::string> unshared;  // what a ray may meet and the survey does not hold
+  [[nodiscard]] bool shares() const { return unshared.empty(); }
 };
 
 struct SceneSurvey {
@@ -64,6 +73,7 @@ struct SceneSurvey {
   std::string world;  // "none", "constant", "picture", "nodes"
   double world_strength = 0;
   std::array<double, 3> world_color{1, 1, 1};
+  GatherNotes gather;
   std::vector<std::string> warnings;  // what the user should know of the scene, one line each
   SceneDigest digest;                 // of the user's own scene; empty in a scene file for the tracer
   std::vector<InputFile> inputs;      // every file that was read, the scene itself first

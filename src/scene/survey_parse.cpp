@@ -33,6 +33,7 @@ SceneObject read_object(const json& entry, std::size_t meshes) {
   object.slots = entry.at("slots").get<std::vector<std::string>>();
   object.light_group = entry.at("light_group").get<std::string>();
   object.visible_to_camera = entry.at("visible_to_camera").get<bool>();
+  object.visible_to_bounces = entry.value("visible_to_bounces", true);
   if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= meshes) {
     fail(ExitCode::invalid_input, "object '{}': mesh {} of {} does not exist", object.key, object.mesh,
          meshes);
@@ -42,7 +43,12 @@ SceneObject read_object(const json& entry, std::size_t meshes) {
 
 MaterialInfo read_material(const std::string& name, const json& entry) {
   return {name, entry.at("normal_mapped").get<bool>(), entry.at("emissive").get<bool>(),
-          entry.at("outside_model").get<std::vector<std::string>>()};
+          entry.at("outside_model").get<std::vector<std::string>>(), entry.value("even", false)};
+}
+
+GatherNotes read_gather_notes(const json& entry) {
+  return {entry.at("refused").get<std::vector<std::string>>(),
+          entry.at("unshared").get<std::vector<std::string>>()};
 }
 
 LightInfo read_light(const json& entry) {
@@ -176,6 +182,7 @@ SceneSurvey parse_survey(const json& content, Blob& data) {
   for (const json& entry : content.value("probe_places", json::array()))  // files of older versions have none
     survey.probe_places.push_back(read_probe_place(entry));
   read_world(content.at("world"), survey);
+  if (content.contains("gather")) survey.gather = read_gather_notes(content["gather"]);  // of a bake's scene
   survey.digest = read_digest(content.value("digest", json::array()));  // scenes for the tracer have neither
   survey.inputs = read_inputs(content.value("inputs", json::array()));
   survey.warnings = content.at("warnings").get<std::vector<std::string>>();

@@ -13,11 +13,12 @@
 namespace rnmbake {
 
 BlockGatherer::BlockGatherer(const TraceScene& scene, const PointSource& points, const GatherOptions& options,
-                             const OwnSurface* own)
+                             const OwnSurface* own, const Incident* incident)
     : scene_(scene),
       points_(points),
       options_(options),
       own_(own),
+      incident_(incident),
       path_{options.bounces, 1, options.sample_lights, options.sample_bsdf, {}, nullptr, nullptr, Vec3(0)},
       directions_(options.directions.size()),
       coefficients_(static_cast<std::size_t>(options.sh_order) * options.sh_order),
@@ -189,6 +190,7 @@ void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
   const float choice = sampler.next1();
   const Vec3 direction = lobes_[i].sample(choice, sampler.next2());
   const float pdf = lobes_[i].pdf(direction);
+  if (incident_ != nullptr) return follow_elsewhere(i, direction, pdf);
   if (!(pdf > 0)) return;
   const auto bsdf_weight = [&](float light_pdf) {
     return mis_weight(options_.sample_lights, options_.sample_bsdf, pdf, light_pdf * lamp_samples);
@@ -217,6 +219,26 @@ void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
     return;
   }
   shared = {vertex.position, vertex.face, vertex.start(), radiance / end.stop_probability, end.visibility};
+}
+
+/// Asks for the radiance along a primary ray, or takes it in. Where it comes from a surface that sends the same
+/// to all sides it is left in `shared_vertices_`; see-through surfaces send what lies behind them, too, and
+/// end segments as all others do.
+void BlockGatherer::follow_elsewhere(std::size_t i, const Vec3& direction, float pdf) {
+  const Ray ray{states_[i].origin, direction, infinity};
+  if (incident_->asked != nullptr)
+    return incident_->asked->push_back({ray.origin, direction, states_[i].point.face});
+  const Vec3 radiance = incident_->radiance[next_incident_++];
+  if (!(pdf > 0) || radiance == Vec3(0)) return;
+  ++lit_;
+  ++rays_;
+  Hit hit;
+  std::vector<TransparentHit> none;  // all of this scene's materials are opaque
+  if (!scene_.intersect(ray, hit, none)) return add(i, direction, radiance / pdf);
+  const Vertex vertex = vertex_at(scene_, ray, hit);
+  if (incident_->even[vertex.material] == 0) return add(i, direction, radiance / pdf);
+  ++shared_;
+  shared_vertices_[i] = {vertex.position, vertex.face, vertex.start(), radiance, Visibility{}};
 }
 
 /// Adds the vertex that point `finder` found to every point that sees it.

@@ -20,9 +20,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace rnmbake {
+
+/// A primary ray, relative to TraceScene::origin(), and the normal of the face that it starts at.
+struct PrimaryRay {
+  Vec3 origin, direction, face;
+};
+
+/// Primary rays that another renderer follows (trace/mirror_gather.h): a first round lists them, a second one
+/// with the same seed takes what came back along them, in the same order.
+struct Incident {
+  std::vector<PrimaryRay>* asked = nullptr;  // rays are appended; null: the second round
+  std::span<const Vec3> radiance;     // reflected light that arrives along each
+  std::span<const char> even;         // [materials of the scene] whether they send the same to all sides
+};
 
 class BlockGatherer {
  public:
@@ -30,9 +44,10 @@ class BlockGatherer {
   /// For each path: shadow rays cost little, and most of the noise comes from the choice of lamps.
   static constexpr std::size_t lamp_samples = 8;
 
-  /// `own`: the target, where recipe faults are to be made; null: none are.
+  /// `own`: the target, where recipe faults are to be made; null: none are. `incident`: where reflected light
+  /// comes from, all the light there is then; null: from paths.
   BlockGatherer(const TraceScene& scene, const PointSource& points, const GatherOptions& options,
-                const OwnSurface* own);
+                const OwnSurface* own, const Incident* incident = nullptr);
 
   /// Number of estimates for each point: directions, then SH coefficients.
   [[nodiscard]] std::size_t values() const { return directions_ + coefficients_; }
@@ -44,6 +59,9 @@ class BlockGatherer {
 
   /// Since construction: rays traced, and for each point the primary rays that hit a back face.
   [[nodiscard]] std::int64_t rays() const { return rays_; }
+  /// ... primary rays with light, and those of them whose light the block shared.
+  [[nodiscard]] std::int64_t lit() const { return lit_; }
+  [[nodiscard]] std::int64_t shared() const { return shared_; }
   [[nodiscard]] const std::vector<std::int64_t>& back_faces() const { return back_faces_; }
 
  private:
@@ -64,6 +82,7 @@ class BlockGatherer {
   void set_lobes(std::size_t i);
   void sample_lamps(std::size_t i, std::size_t index, std::uint64_t seed, int sample);
   void trace_path(std::size_t i, Sampler& sampler);
+  void follow_elsewhere(std::size_t i, const Vec3& direction, float pdf);
   void share(std::size_t finder, std::size_t count);
   void add(std::size_t i, const Vec3& direction, const Vec3& light);
   void add_below(std::size_t i, const LightSample& light);
@@ -80,6 +99,8 @@ class BlockGatherer {
   const PointSource& points_;
   const GatherOptions& options_;
   const OwnSurface* own_;  // null: no faults
+  const Incident* incident_;
+  std::size_t next_incident_ = 0;
   std::optional<Recipe> recipe_;
   PathOptions path_;
   std::size_t directions_, coefficients_;
@@ -89,7 +110,7 @@ class BlockGatherer {
   std::vector<CosineLobes> lobes_;  // [states_]: primary rays are sampled from these
   std::vector<Vec3> normals_;       // [states_][directions], world space
   std::vector<SharedVertex> shared_vertices_;
-  std::int64_t rays_ = 0;
+  std::int64_t rays_ = 0, lit_ = 0, shared_ = 0;
   std::vector<std::int64_t> back_faces_;
 };
 

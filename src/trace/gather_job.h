@@ -27,6 +27,7 @@ struct TexelBlock {
   std::unique_ptr<BatchStatistics> statistics;
   std::int64_t rays = 0;
   std::vector<std::int64_t> back_faces;
+  std::int64_t lit = 0, shared = 0;  // primary rays, where somebody else follows them (BlockGatherer)
 
   [[nodiscard]] std::int64_t samples() const { return std::int64_t(statistics->batches()) * batch_samples; }
   /// That the plan asks for beyond those that are there.
@@ -61,11 +62,14 @@ class GatherJob {
   [[nodiscard]] const GatherTarget& target() const { return target_; }
   [[nodiscard]] std::size_t texels() const { return texel_samples_.size(); }
   std::vector<TexelBlock>& blocks() { return blocks_; }
+  [[nodiscard]] const std::vector<TexelBlock>& blocks() const { return blocks_; }
 
   /// Gathers the batches that a block's plan asks for. `stage`: makes the pilot's samples independent of the
   /// rest. `go_on` is called after each batch with its share of the work, and ends the work by false.
-  void work(TexelBlock& block, std::uint64_t stage, const std::function<bool(double)>& go_on) const {
-    BlockGatherer gatherer(scene_, texel_samples_, options_, own_ ? &*own_ : nullptr);
+  /// `incident`: see BlockGatherer.
+  void work(TexelBlock& block, std::uint64_t stage, const std::function<bool(double)>& go_on,
+            const Incident* incident = nullptr) const {
+    BlockGatherer gatherer(scene_, texel_samples_, options_, own_ ? &*own_ : nullptr, incident);
     if (!block.statistics)
       block.statistics = std::make_unique<BatchStatistics>(block.count, gatherer.values());
     const std::uint64_t seed = hash_of(hash_of(hash_of(options_.seed, target_.stream), stage), block.first);
@@ -76,6 +80,8 @@ class GatherJob {
       if (!go_on(share)) return;
     }
     block.rays += gatherer.rays();
+    block.lit += gatherer.lit();
+    block.shared += gatherer.shared();
     block.back_faces.resize(block.count);
     for (std::size_t i = 0; i < block.count; ++i) block.back_faces[i] += gatherer.back_faces()[i];
   }
@@ -172,7 +178,10 @@ class GatherJob {
     return true;
   }
 
-  Gathered result() const {
+  Gathered result() const { return result(blocks_); }
+
+  /// Of blocks like this target's.
+  [[nodiscard]] Gathered result(const std::vector<TexelBlock>& blocks) const {
     Gathered out;
     const auto image = [&](int channels) { return FloatImage(target_.width, target_.height, channels); };
     out.coverage = image(1);
@@ -183,7 +192,7 @@ class GatherJob {
       direction.standard_error = image(3);
     }
     for (int c = 0; c < options_.sh_order * options_.sh_order; ++c) out.sh.push_back(image(3));
-    for (const TexelBlock& block : blocks_) write(block, out);
+    for (const TexelBlock& block : blocks) write(block, out);
     for (GatheredDirection& direction : out.directions) {
       for (double& error : direction.mean_error) error = std::sqrt(error);
     }

@@ -1,5 +1,6 @@
 #include "pipeline/bake/bake_run.h"
 
+#include "bake/mirrors.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/names.h"
@@ -8,6 +9,8 @@
 #include "config/recipe_names.h"
 #include "pipeline/dispatch/cycles_settings.h"
 #include "pipeline/dispatch/dispatcher.h"
+#include "pipeline/gather/choose_recipe.h"
+#include "pipeline/gather/indirect_light.h"
 #include "pipeline/lightmaps/bake_collector.h"
 #include "pipeline/lightmaps/manifest.h"
 #include "pipeline/lightmaps/target_facts.h"
@@ -54,10 +57,18 @@ struct PlannedBake {
   std::vector<double> heights;  // of receivers over their faces, texels
   std::vector<Coarse> coarse;
   std::vector<std::string> small;  // targets that are too small for fences
+  std::unique_ptr<IndirectLight> indirect;  // of recipe gather
 };
 
 bool by_receiver(const BakeSettings& settings) {
-  return settings.bake.recipe == BakingSettings::Recipe::receiver;
+  return settings.bake.recipe != BakingSettings::Recipe::flat_normal_map;
+}
+
+/// Settings with the recipe that the scene is baked by.
+BakeSettings settled(const BlenderSession& session, const BakeSubject& subject) {
+  BakeSettings settings = session.settings();
+  settings.bake.recipe = choose_recipe(settings, subject.survey, subject.list.settings);
+  return settings;
 }
 
 LightmapMetadata metadata_of(const Target& target, const ObjectSettings& object, const BakeSettings& settings,
@@ -93,8 +104,12 @@ bool plan_receivers(const BakeSettings& settings, const BakeSubject& subject, st
   if (planned.heights[i] > coarse_height) planned.coarse.push_back({i, distance_of(surface)});
   planned.horizons[i] = passes.counts;
   const bool needs_identity = passes.passes.size() > bases.size();
+  const CyclesSettings cycles = cycles_settings(settings.bake, object);
+  CyclesSettings of_receivers = cycles;
+  if (planned.indirect) of_receivers.bounces = 0;
   add_receiver_tasks(planned.plan, plan_target(subject.survey, target), std::move(passes),
-                     task_names(subject.bases), cycles_settings(settings.bake, object));
+                     task_names(subject.bases), of_receivers);
+  if (planned.indirect) planned.indirect->plan(planned.plan, target, cycles);
   return needs_identity;
 }
 
@@ -163,6 +178,8 @@ PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, 
   const TargetList& list = subject.list;
   PlannedBake planned;
   if (by_receiver(settings)) planned.plan.guards.emplace().fences.resize(list.targets.size());
+  if (settings.bake.recipe == BakingSettings::Recipe::gather)
+    planned.indirect = std::make_unique<IndirectLight>(subject.survey, subject.bases, blender.version);
   planned.horizons.resize(list.targets.size());
   planned.heights.resize(list.targets.size());
   const std::vector<LightBall> lights = light_balls(subject.survey);
@@ -177,6 +194,7 @@ PlannedBake plan_bake(const BakeSettings& settings, const BakeSubject& subject, 
   }
   lost.warn();
   group_tasks(planned.plan, resolve_dispatch(settings.bake));
+  group_mirrors(planned.plan);
   warn_of_coarse(planned, list.targets);
   warn_of_small(planned.small);
   if (by_receiver(settings)) warn_of_shadowless(subject.survey.lights);
@@ -196,8 +214,7 @@ BatchRecipe recipe_of(const BakeSettings& settings, const BakeContext& context) 
 
 /// The scene with its UVs, and the manifest.
 void write_records(BlenderSession& session, const BakeSubject& subject, const PlannedBake& planned,
-                   const BakeOutcome& outcome) {
-  const BakeSettings& settings = session.settings();
+                   const BakeSettings& settings, const BakeOutcome& outcome) {
   const SavedScene saved = save_scene_with_uvs(session, subject.survey, subject.blends.own,
                                                subject.earlier.add_to(uvs_of(subject.list.targets)));
   write_manifest({settings, subject.survey, subject.list, subject.bases, planned.headers, outcome.deliveries,
@@ -209,7 +226,7 @@ void write_records(BlenderSession& session, const BakeSubject& subject, const Pl
 }  // namespace
 
 std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject& subject) {
-  const PlannedBake planned = plan_bake(session.settings(), subject, session.blender().info());
+  const PlannedBake planned = plan_bake(settled(session, subject), subject, session.blender().info());
   std::vector<BakePreview> all;
   for (const PlannedTarget& target : planned_targets(planned.plan)) {
     const PassCache& cache = subject.rules.cache;
@@ -222,13 +239,14 @@ std::vector<BakePreview> preview_bake(BlenderSession& session, const BakeSubject
 
 void plan_only(const BlenderSession& session, const BakeSubject& subject,
                const std::function<void(const Plan&, const BatchRecipe&)>& use) {
-  const PlannedBake planned = plan_bake(session.settings(), subject, session.blender().info());
+  const BakeSettings settings = settled(session, subject);
+  const PlannedBake planned = plan_bake(settings, subject, session.blender().info());
   const BakeContext context{subject.survey, subject.list.targets, subject.bases, planned.plan};
-  use(planned.plan, recipe_of(session.settings(), context));
+  use(planned.plan, recipe_of(settings, context));
 }
 
 BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
-  const BakeSettings& settings = session.settings();
+  const BakeSettings settings = settled(session, subject);
   const std::vector<Target>& targets = subject.list.targets;
   const BlenderInfo& blender = session.blender().info();
   const PlannedBake planned = plan_bake(settings, subject, blender);
@@ -236,13 +254,14 @@ BakeOutcome run_bake(BlenderSession& session, const BakeSubject& subject) {
   log::info("baking {} x {} in {} of Blender {}", counted(targets.size(), "lightmap"),
             counted(subject.bases.size(), "basis"), counted(planned.plan.batches.size(), "launch"),
             blender.version_text);
-  BakeCollector collector(context, settings.output, planned.headers, subject.rules.preview);
+  BakeCollector collector(context, settings.output, planned.headers, subject.rules.preview,
+                          planned.indirect.get());
   BakeOutcome outcome;
   outcome.timings = run_batches(session, planned.plan, subject.blends.shown, recipe_of(settings, context),
                                 collector, subject.rules);
   outcome.deliveries = collector.deliveries();
   if (may_be_lit(subject.survey)) warn_of_black(targets, outcome.deliveries);
-  write_records(session, subject, planned, outcome);
+  write_records(session, subject, planned, settings, outcome);
   return outcome;
 }
 

@@ -35,6 +35,7 @@ BatchWork::BatchWork(const Plan& plan, Batch batch, BakeRequest request, fs::pat
   seed_ = cycles.seed;
   wanted_ = cycles.samples;
   noise_ = cycles.noise;
+  rules_.whole |= cycles.mirrors;  // few samples each: what is cut are their batches
   if (cache_.is_on()) key_ = cache_.key_of(request_, folder_);
   texels_ = double(texels_of(plan_, layout().rects));
   for (const std::size_t rect : layout().rects) {

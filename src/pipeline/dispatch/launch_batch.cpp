@@ -49,10 +49,10 @@ LaunchFailure no_picture(const BatchWork& work, const Plan& plan) {
 }
 
 PassCost cost_of(const Plan& plan, const BatchLayout& layout, std::int64_t scene_triangles) {
-  std::int64_t corners = 0;
+  std::int64_t triangles = 0;
   for (const std::size_t rect : layout.rects)
-    corners += static_cast<std::int64_t>(plan.rects[rect].pass.corners.size());
-  return model_cost(texels_of(plan, layout.rects), corners / 3, scene_triangles);
+    triangles += static_cast<std::int64_t>(plan.rects[rect].pass.triangles());
+  return model_cost(texels_of(plan, layout.rects), triangles, scene_triangles);
 }
 
 }  // namespace rnmbake

@@ -37,17 +37,17 @@ std::int64_t memory_budget(const BakeSettings& settings) {
 
 std::int64_t atlas_pixels_for(const BakeSettings& settings, std::int64_t scene_triangles, const Plan& plan,
                               const Batch& batch, int jobs) {
-  std::int64_t receiver_corners = 0;
+  std::int64_t receiver_triangles = 0;
   for (const std::size_t task : batch.tasks) {
     for (const std::size_t rect : plan.tasks[task].rects) {
-      receiver_corners += static_cast<std::int64_t>(plan.rects[rect].pass.corners.size());
+      receiver_triangles += static_cast<std::int64_t>(plan.rects[rect].pass.triangles());
     }
   }
   const std::int64_t samples = plan.tasks[batch.tasks.front()].cycles.samples;
   const std::int64_t patience =
       std::max<std::int64_t>(work_per_pass / std::clamp<std::int64_t>(samples, 1, few_samples), 1 << 18);
   const std::int64_t limit = std::min<std::int64_t>(settings.bake.atlas_limit, patience);
-  return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles, receiver_corners / 3);
+  return atlas_pixels(limit, memory_budget(settings) / jobs, scene_triangles, receiver_triangles);
 }
 
 }  // namespace rnmbake

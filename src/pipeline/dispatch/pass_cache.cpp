@@ -28,7 +28,7 @@ void add_rect(KeyMaker& key, const AtlasRect& rect) {
   key.add("role", std::int64_t(rect.pass.role)).add("basis", std::int64_t(rect.pass.basis));
   key.add("x", std::int64_t{rect.x}).add("y", std::int64_t{rect.y});
   key.add("width", std::int64_t{rect.size.width}).add("height", std::int64_t{rect.size.height});
-  key.add("corners", hash_of(rect.pass.corners));
+  key.add("corners", hash_of(rect.pass.corners)).add("mirrors", hash_of(rect.pass.mirrors));
 }
 
 ResultKey list_of_samples(const ResultKey& key) {

@@ -56,6 +56,7 @@ CyclesSettings cycles_of(const json& text) {
   cycles.clamp = text.at("clamp");
   cycles.device = text.at("device");
   cycles.lamps = text.at("lamps");
+  cycles.mirrors = text.at("mirrors");
   return cycles;
 }
 
@@ -75,10 +76,12 @@ json rect_json(const AtlasRect& rect, std::size_t target) {
           {"y", rect.y},
           {"width", rect.size.width},
           {"height", rect.size.height},
-          {"corners", rect.pass.corners.size()}};
+          {"corners", rect.pass.corners.size()},
+          {"mirrors", rect.pass.mirrors.size()},
+          {"meets_light", rect.pass.meets_light}};
 }
 
-AtlasRect rect_of(const json& text, std::size_t first_target, ValueFile& corners) {
+AtlasRect rect_of(const json& text, std::size_t first_target, ValueFile& corners, ValueFile& mirrors) {
   AtlasRect rect;
   rect.target = first_target + text.at("target").get<std::size_t>();
   rect.pass.role = ReceiverPass::Role(text.at("role").get<int>());
@@ -87,19 +90,22 @@ AtlasRect rect_of(const json& text, std::size_t first_target, ValueFile& corners
   rect.y = text.at("y");
   rect.size = {text.at("width"), text.at("height")};
   rect.pass.corners = corners.take<ReceiverCorner>(text.at("corners"));
+  rect.pass.meets_light = text.at("meets_light");
+  rect.pass.mirrors = mirrors.take<Mirror>(text.at("mirrors"));
   return rect;
 }
 
 /// Adds what a folder holds behind what is there.
 void add_batch(Plan& plan, const json& text, const fs::path& folder) {
-  ValueFile corners(folder / "corners.f32"), fences(folder / "fences.f32");
+  ValueFile corners(folder / "corners.f32"), mirrors(folder / "mirrors.f32"), fences(folder / "fences.f32");
   const std::size_t first_target = plan.targets.size(), first_rect = plan.rects.size();
   for (const json& target : text.at("targets")) {
     plan.targets.push_back(
         {target.at("key"), {target.at("width"), target.at("height")}, target.at("light_group")});
     if (plan.guards) plan.guards->fences.push_back(fences.take<Fence>(target.at("fences")));
   }
-  for (const json& rect : text.at("rects")) plan.rects.push_back(rect_of(rect, first_target, corners));
+  for (const json& rect : text.at("rects"))
+    plan.rects.push_back(rect_of(rect, first_target, corners, mirrors));
   Batch batch;
   for (const json& one : text.at("tasks")) {
     BakeTask task;
@@ -123,7 +129,7 @@ void write_batch(const Plan& plan, const Batch& batch, const fs::path& folder) {
   std::map<std::size_t, std::size_t> targets;  // of the plan -> of the file, in their order
   for (const std::size_t task : batch.tasks) targets[plan.tasks[task].target] = 0;
   json targets_json = json::array(), rects = json::array(), tasks = json::array();
-  std::string corners, fences;
+  std::string corners, mirrors, fences;
   const bool has_fences = plan.guards && !plan.guards->fences.empty();
   for (auto& [target, place] : targets) {
     place = targets_json.size();
@@ -138,6 +144,7 @@ void write_batch(const Plan& plan, const Batch& batch, const fs::path& folder) {
       own.push_back(rects.size());
       rects.push_back(rect_json(plan.rects[rect], targets.at(plan.rects[rect].target)));
       append(corners, plan.rects[rect].pass.corners);
+      append(mirrors, plan.rects[rect].pass.mirrors);
     }
     tasks.push_back(
         {{"target", targets.at(task.target)}, {"name", task.name}, {"basis", task.basis}, {"rects", own}});
@@ -150,6 +157,7 @@ void write_batch(const Plan& plan, const Batch& batch, const fs::path& folder) {
             {"tasks", tasks}};
   if (plan.guards) text["glow_heights"] = plan.guards->glow_heights;
   write_atomically(folder / "corners.f32", corners);
+  write_atomically(folder / "mirrors.f32", mirrors);
   write_atomically(folder / "fences.f32", fences);
   write_atomically(folder / "batch.json", text.dump() + "\n");
 }

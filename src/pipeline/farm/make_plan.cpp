@@ -141,7 +141,7 @@ void require_farmable(const ResolvedConfig& config) {
     fail(ExitCode::usage,
          "--noise decides while it bakes how long to go on, which a plan cannot know; leave it out and give "
          "--samples");
-  if (settings.bake.recipe != BakingSettings::Recipe::receiver)
+  if (settings.bake.recipe == BakingSettings::Recipe::flat_normal_map)
     fail(ExitCode::usage,
          "--recipe flat-normal-map is baked in one piece and has no passes to divide; use rnmbake bake, or "
          "--recipe receiver");

@@ -10,10 +10,12 @@
 namespace rnmbake {
 
 BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
-                             std::vector<LightmapHeader> headers, bool preview)
+                             std::vector<LightmapHeader> headers, bool preview,
+                             const IndirectLight* indirect)
     : context_(context),
       output_(output),
       headers_(std::move(headers)),
+      indirect_(indirect),
       previews_(preview ? std::make_unique<PreviewPictures>(context_, output_, headers_) : nullptr),
       pending_(headers_.size()),
       deliveries_(headers_.size()) {
@@ -71,20 +73,28 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
   const double variance_factor = any.variance_factor();
   LightmapHeader header = headers_[target_index];
   header.metadata.samples = any.all_samples();
+  IndirectLight::Gathering gathering;
+  if (indirect_ != nullptr) gathering = indirect_->gather(target_index, context_.plan, pending.pictures);
   for (auto& [rect, picture] : pending.pictures) {
+    if (context_.plan.rects[rect].pass.role == ReceiverPass::Role::mirrors) continue;
     rects.push_back(&context_.plan.rects[rect]);
     means.push_back(picture.mean());
     has_error = has_error && picture.has_error();
     for (const std::size_t half : {0U, 1U}) halves[half].push_back(std::move(picture.halves[half]));
   }
-  const auto assembled = [&](const std::vector<FloatImage>& pictures, bool frames) {
-    return assemble(target, rects, pictures, context_.bases, header.surface.get(), frames);
+  const auto assembled = [&](const std::vector<FloatImage>& pictures, std::array<float, 2> shares,
+                             bool frames) {
+    TargetBakes bakes = assemble(target, rects, pictures, context_.bases, header.surface.get(), frames);
+    for (const std::size_t half : {0U, 1U}) {
+      if (shares[half] > 0) add_light(gathering.halves[half], shares[half], bakes);
+    }
+    return bakes;
   };
   try {
-    const TargetBakes bakes = assembled(means, output_.frames);
+    const TargetBakes bakes = assembled(means, {0.5F, 0.5F}, output_.frames);
     if (!has_error) return deliver_lightmap(bakes, header, output_);
-    HalfErrors errors =
-        half_errors(assembled(halves[0], false), assembled(halves[1], false), variance_factor);
+    HalfErrors errors = half_errors(assembled(halves[0], {1, 0}, false), assembled(halves[1], {0, 1}, false),
+                                    variance_factor);
     ExtraLayers extra;
     if (has_error_layers(output_)) extra.standard_errors = std::move(errors.layers);
     Delivered delivered = deliver_lightmap(bakes, header, output_, std::move(extra));

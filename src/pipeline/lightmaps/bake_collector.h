@@ -5,6 +5,7 @@
 #include "bake/plan.h"
 #include "bake/request.h"
 #include "config/bake_settings.h"
+#include "pipeline/gather/indirect_light.h"
 #include "pipeline/dispatch/picture_sink.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/preview_pictures.h"
@@ -21,9 +22,10 @@ namespace rnmbake {
 /// disk.
 class BakeCollector : public PictureSink {
  public:
-  /// `preview`: pictures to look at lie in DIR/preview while it bakes.
+  /// `preview`: pictures to look at lie in DIR/preview while it bakes. `indirect`: of recipe gather, whose
+  /// plan has mirrors beside receivers.
   BakeCollector(const BakeContext& context, const OutputSettings& output, std::vector<LightmapHeader> headers,
-                bool preview = false);
+                bool preview = false, const IndirectLight* indirect = nullptr);
 
   /// Writes each target that became complete.
   void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) override;
@@ -42,6 +44,7 @@ class BakeCollector : public PictureSink {
   BakeContext context_;
   OutputSettings output_;
   std::vector<LightmapHeader> headers_;
+  const IndirectLight* indirect_;
   std::unique_ptr<PreviewPictures> previews_;  // of headers_; null: nobody asked
   mutable std::mutex mutex_;
   std::vector<PendingTarget> pending_;

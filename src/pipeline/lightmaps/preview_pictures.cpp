@@ -22,7 +22,9 @@ PreviewPictures::PreviewPictures(const BakeContext& context, const OutputSetting
       headers_(headers),
       rects_(headers.size()),
       is_finished_(headers.size()) {
-  for (const BakeTask& task : context.plan.tasks) rects_[task.target] += task.rects.size();
+  for (const BakeTask& task : context.plan.tasks) {
+    if (!task.cycles.mirrors) rects_[task.target] += task.rects.size();
+  }
 }
 
 PreviewPictures::~PreviewPictures() {
@@ -39,6 +41,7 @@ void PreviewPictures::take(const BatchLayout& layout, const std::vector<BakedPic
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const std::size_t rect = layout.rects[i], target = context_.plan.rects[rect].target;
+    if (context_.plan.rects[rect].pass.role == ReceiverPass::Role::mirrors) continue;
     if (!is_finished_[target] && pictures[i].all_samples() > 0) pictures_[target][rect] = pictures[i].mean();
   }
   std::erase_if(pictures_, [&](const auto& one) {

@@ -57,12 +57,6 @@ Footprint footprint_of(ReferenceSettings::Footprint wanted, const BlenderVersion
   return version >= first_with_full_footprint ? Footprint::full : Footprint::half;
 }
 
-/// Footprint and edges of that Blender's bakes.
-void follow(const BlenderVersion& version, ReferenceSettings::Footprint footprint, ReferencePlan& plan) {
-  plan.footprint = footprint_of(footprint, version);
-  plan.past_edge = version < first_that_retries ? PastEdge::mirror : PastEdge::retry;
-}
-
 void refuse_clamp(const std::string& where) {
   fail(ExitCode::usage, "{}: the embree engine clamps nothing; leave clamp out, or bake with engine cycles",
        where);
@@ -70,7 +64,11 @@ void refuse_clamp(const std::string& where) {
 
 void refuse_what_only_cycles_does(const ResolvedConfig& config) {
   const BakingSettings& bake = config.globals.bake;
-  if (bake.recipe != BakingSettings::Recipe::receiver) {
+  if (bake.recipe == BakingSettings::Recipe::gather) {
+    fail(ExitCode::usage, "{}: gather is a recipe for Cycles; leave engine embree out, or the recipe",
+         config.provenance("recipe"));
+  }
+  if (bake.recipe == BakingSettings::Recipe::flat_normal_map) {
     fail(ExitCode::usage,
          "{}: flat-normal-map is a recipe for Cycles; leave engine embree out, or trace the recipe's errors "
          "by rnmbake reference --model flat-normal-map",
@@ -133,6 +131,11 @@ ReferencePlan plan_traced_bake(const ResolvedConfig& config, const std::string& 
   plan.bounces = config.globals.bake.bounces;
   plan.threads = config.globals.run.threads;
   return plan;
+}
+
+void follow(const BlenderVersion& version, ReferenceSettings::Footprint footprint, ReferencePlan& plan) {
+  plan.footprint = footprint_of(footprint, version);
+  plan.past_edge = version < first_that_retries ? PastEdge::mirror : PastEdge::retry;
 }
 
 BlenderVersion blender_version_of(const std::string& text, const std::string& where) {

@@ -37,6 +37,9 @@ struct ReferencePlan {
 /// "3.4.1", "4.3", "5.2.2 LTS". Throws Error(usage), naming `where`.
 [[nodiscard]] BlenderVersion blender_version_of(const std::string& text, const std::string& where);
 
+/// Footprint and edges of that Blender's bakes, into the plan.
+void follow(const BlenderVersion& version, ReferenceSettings::Footprint footprint, ReferencePlan& plan);
+
 /// The errors that the published recipe has in that Blender.
 [[nodiscard]] RecipeFaults faults_of(const BlenderVersion& version);
 
