@@ -8,7 +8,6 @@ from array import array
 
 import bpy
 
-from scene_ops import cycles
 from scene_ops.plain_material import empty_tree
 
 

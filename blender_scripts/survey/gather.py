@@ -3,11 +3,8 @@ may meet that the survey does not hold.
 
 A mirror's ray is a glossy one, a receiver's a diffuse one; all that comes after is the same.
 """
-import bpy
-
 from scene_ops.describe import bends_normals, outside_of
 from scene_ops.describe_nodes import active_output, reachable_nodes
-from scene_ops.keys import material_name
 from scene_ops.see_through import has_transparency
 
 # Light Path outputs that are the same for a mirror's ray and a receiver's.

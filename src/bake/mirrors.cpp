@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t task_mirrors = std::size_t(1) << 16;
 constexpr std::size_t batch_mirrors = std::size_t(1) << 19;
 
-/// Steps of a float from the centre of a mirror to its corners along each axis: corner normals decide where it
-/// looks, so its face may be turned a little by rounding.
+/// Steps of a float from the centre of a mirror to its corners along each axis: corner normals decide where
+/// it looks, so its face may be turned a little by rounding.
 constexpr int size_steps = 5;  // 2^5
 
 double largest_coordinate(const Vec3d& p) {

@@ -22,8 +22,8 @@ struct CyclesSettings {
   int samples = 256, bounces = 32, seed = 0;
   double clamp = 0;
   std::string device = "CPU";
-  bool lamps = true;  // whether lamp objects give light
-  double noise = 0;   // relative standard error that is enough, a share; 0: `samples` decide
+  bool lamps = true;     // whether lamp objects give light
+  double noise = 0;      // relative standard error that is enough, a share; 0: `samples` decide
   bool mirrors = false;  // receivers are mirrors; what they meet at once does not count (bake/mirrors.h)
   bool operator==(const CyclesSettings&) const = default;
 };

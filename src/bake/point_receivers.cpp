@@ -47,8 +47,7 @@ ReceiverPasses make_point_receivers(std::span<const Vec3d> points, std::span<con
     std::vector<ReceiverCorner> triangles;
     triangles.reserve(3 * points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto three =
-          point_receiver(points[i], directions[d], point_receiver_size(points[i]), i, map);
+      const auto three = point_receiver(points[i], directions[d], point_receiver_size(points[i]), i, map);
       triangles.insert(triangles.end(), three.begin(), three.end());
     }
     result.passes.push_back({ReceiverPass::Role::basis, d, std::move(triangles)});

@@ -137,7 +137,8 @@ json write_atlas(const Plan& plan, const BatchLayout& layout, std::size_t atlas,
     if (joined.count() == 0) continue;  // all its triangles lie between the centres of texels
     joined.write(out, size);
     json parts = json::array();
-    for (const std::size_t i : members) parts.push_back({i, 3 * plan.rects[layout.rects[i]].pass.triangles()});
+    for (const std::size_t i : members)
+      parts.push_back({i, 3 * plan.rects[layout.rects[i]].pass.triangles()});
     groups.push_back({{"corners", joined.count()}, {"light_group", group}, {"parts", parts}});
   }
   out.close();

@@ -155,7 +155,8 @@ void ResolvedConfig::check_open_end() const {
   const Recipe recipe = globals.bake.recipe;
   if (recipe != Recipe::gather && recipe != Recipe::flat_normal_map) return;
   if (!time.empty() || globals.object.noise > 0)
-    fail(ExitCode::usage, "{}: {} is baked with as many samples as it begins with; give --samples in place of {}",
+    fail(ExitCode::usage,
+         "{}: {} is baked with as many samples as it begins with; give --samples in place of {}",
          provenance("recipe"), name_of(recipe), time.empty() ? "--noise" : "--time");
 }
 

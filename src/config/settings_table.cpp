@@ -101,8 +101,9 @@ std::vector<Setting> make_settings_table() {
       bake("engine", &Bake::engine,
            "who computes the light: cycles, or embree, faster, of diffuse surfaces alone")
           .only({Purpose::bake}),
-      bake("recipe", &Bake::recipe, "receiver is exact; gather is exact and faster: texels share light that bounced; auto is gather where "
-           "that is exact, else receiver; flat-normal-map is the published recipe, uncorrected")
+      bake("recipe", &Bake::recipe,
+           "receiver is exact; gather, too: neighbours share light that bounced, for less noise of single "
+           "texels; auto: gather where it is exact; flat-normal-map is the published recipe, uncorrected")
           .only({Purpose::bake}),
       bake("correct_bump", &Bake::correct_bump,
            "flat-normal-map: turn off the bump correction where this Blender lets us")

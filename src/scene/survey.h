@@ -18,7 +18,8 @@ struct MaterialInfo {
   bool normal_mapped = false;
   bool emissive = false;
   std::vector<std::string> outside_model;  // "glossy", "transmission", ...: not plain diffuse + emission
-  bool even = false;  // what it reflects is the same to all who see one side of it, and nothing shines through
+  bool even =
+      false;  // what it reflects is the same to all who see one side of it, and nothing shines through
 };
 
 struct LightInfo {

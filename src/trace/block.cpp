@@ -221,9 +221,9 @@ void BlockGatherer::trace_path(std::size_t i, Sampler& sampler) {
   shared = {vertex.position, vertex.face, vertex.start(), radiance / end.stop_probability, end.visibility};
 }
 
-/// Asks for the radiance along a primary ray, or takes it in. Where it comes from a surface that sends the same
-/// to all sides it is left in `shared_vertices_`; see-through surfaces send what lies behind them, too, and
-/// end segments as all others do.
+/// Asks for the radiance along a primary ray, or takes it in. Where it comes from a surface that sends the
+/// same to all sides it is left in `shared_vertices_`; see-through surfaces send what lies behind them, too,
+/// and end segments as all others do.
 void BlockGatherer::follow_elsewhere(std::size_t i, const Vec3& direction, float pdf) {
   const Ray ray{states_[i].origin, direction, infinity};
   if (incident_->asked != nullptr)

@@ -34,8 +34,8 @@ struct PrimaryRay {
 /// with the same seed takes what came back along them, in the same order.
 struct Incident {
   std::vector<PrimaryRay>* asked = nullptr;  // rays are appended; null: the second round
-  std::span<const Vec3> radiance;     // reflected light that arrives along each
-  std::span<const char> even;         // [materials of the scene] whether they send the same to all sides
+  std::span<const Vec3> radiance;            // reflected light that arrives along each
+  std::span<const char> even;  // [materials of the scene] whether they send the same to all sides
 };
 
 class BlockGatherer {

@@ -17,13 +17,16 @@ struct MirrorGather::Work {
        const GatherOptions& wanted)
       : even(is_even), options(wanted), job(scene, 0, target, options) {}
 
-  [[nodiscard]] std::size_t rays_of(std::size_t texels) const { return texels * std::size_t(options.samples); }
+  [[nodiscard]] std::size_t rays_of(std::size_t texels) const {
+    return texels * std::size_t(options.samples);
+  }
 
   /// A block gathered in one batch, so that its samples are spread as evenly as they can be.
   [[nodiscard]] TexelBlock gathered(std::size_t b, const Incident& incident) const {
     constexpr std::uint64_t stage = 1;
     TexelBlock block{job.blocks()[b].first, job.blocks()[b].count, options.samples, 1, {}, 0, {}};
-    job.work(block, stage, [](double /*share*/) { return true; }, &incident);
+    job.work(
+        block, stage, [](double /*share*/) { return true; }, &incident);
     return block;
   }
 };

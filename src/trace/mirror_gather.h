@@ -1,11 +1,11 @@
 // trace/mirror_gather.h - a target's indirect light out of radiance that another renderer finds along rays of
 // ours.
 //
-// Rays start at all texels, in directions that suit the lobes that are wanted; for each the other renderer says
-// what reflected light arrives along it, whatever materials stand there. We know where the ray ends, so where
-// that surface sends the same to all sides its light serves a whole block of texels, by the estimator of
-// trace/block.h; elsewhere it serves its own texel alone. Unbiased either way, and any number of directions
-// costs one ray.
+// Rays start at all texels, in directions that suit the lobes that are wanted; for each the other renderer
+// says what reflected light arrives along it, whatever materials stand there. We know where the ray ends, so
+// where that surface sends the same to all sides its light serves a whole block of texels, by the estimator
+// of trace/block.h; elsewhere it serves its own texel alone. Unbiased either way, and any number of
+// directions costs one ray.
 #pragma once
 
 #include "trace/block.h"

@@ -55,6 +55,29 @@ TEST_P(UniformLight, MeansAgree) {
   }
 }
 
+/// Recipe gather shares light, so that means are noisier than texels.
+TEST(Gather, FurnaceAgrees) {
+  Workbench bench(RNMBAKE_BINARY, {});
+  const auto forms = uniform_cases();
+  const auto form = std::ranges::find(forms, "FurnaceHalf", &UniformCase::name);
+  Words flags = form->flags;
+  flags.insert(flags.end(), {"--objects", form->object, "--recipe", "gather"});
+  for (const Outcome& outcome :
+       compare(bench.bake(bench.build(form->scene), flags).lightmap(form->object), form->truth)) {
+    EXPECT_GT(outcome.texels, 500U);
+    EXPECT_LE(std::abs(outcome.error()), widest_allowance * outcome.expected)
+        << outcome.basis << ": mean " << outcome.mean << ", expected " << outcome.expected;
+    EXPECT_LE(std::abs(outcome.error()), outcome.allowance()) << outcome.basis << ": mean " << outcome.mean;
+  }
+}
+
+TEST(Gather, SunsAreThoseOfReceivers) {
+  Workbench bench(RNMBAKE_BINARY, {});
+  Words flags = sun_flags();
+  flags.insert(flags.end(), {"--recipe", "gather"});
+  expect_suns(bench.bake(bench.build({"suns", {}}), flags), unusual_suns());
+}
+
 INSTANTIATE_TEST_SUITE_P(ClosedForms, UniformLight, testing::ValuesIn(uniform_cases()),
                          [](const auto& form) { return form.param.name; });
 

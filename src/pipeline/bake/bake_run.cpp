@@ -56,7 +56,7 @@ struct PlannedBake {
   std::vector<HorizonCounts> horizons;
   std::vector<double> heights;  // of receivers over their faces, texels
   std::vector<Coarse> coarse;
-  std::vector<std::string> small;  // targets that are too small for fences
+  std::vector<std::string> small;           // targets that are too small for fences
   std::unique_ptr<IndirectLight> indirect;  // of recipe gather
 };
 

@@ -16,15 +16,9 @@
 namespace rnmbake {
 namespace {
 
-/// Paths behind each mirror, at most: what a mirror costs beside them is shared by so many, and most of the
-/// noise comes from beyond what it sees.
-constexpr int most_paths = 8;
-constexpr int least_directions = 8;  // for each texel, before a mirror gets more than one path
-
-int paths_of(int samples) {
-  if (const char* x = getenv("XM")) return atoi(x);
-  return std::clamp(samples / least_directions, 1, most_paths);
-}
+/// Paths behind each mirror: a mirror costs about as much as five paths of a simple scene, but directions
+/// take away more noise than paths do (docs/performance.md).
+constexpr int paths_of_mirror = 2;
 
 /// Geometry that diffuse rays meet; every material is opaque, for what lies behind a see-through one is seen
 /// through mirrors alone.
@@ -120,9 +114,8 @@ void IndirectLight::plan(Plan& plan, const Target& target, const CyclesSettings&
   CyclesSettings of_mirrors = cycles;
   of_mirrors.mirrors = true;
   of_mirrors.noise = 0;
-  of_mirrors.samples = paths_of(cycles.samples);
-  if (const char* x = getenv("XD")) of_mirrors.samples *= 1, (void)x;
-  const int directions = (int(cycles.samples / (getenv("XD") ? atof(getenv("XD")) : 1.0)) + of_mirrors.samples - 1) / of_mirrors.samples;
+  of_mirrors.samples = std::min(paths_of_mirror, cycles.samples);
+  const int directions = (cycles.samples + of_mirrors.samples - 1) / of_mirrors.samples;
   member.options.samples = std::max(1, (directions + 1) / 2);
   member.options.seed = static_cast<std::uint64_t>(cycles.seed);
   member.target = {&member.surface, target.object, target.width, target.height, 0};

@@ -1,8 +1,8 @@
 // pipeline/gather/indirect_light.h - recipe gather: light that bounced, out of mirrors that Cycles bakes.
 //
 // E(b)/pi = direct + indirect. Direct light comes from plain receivers that may not bounce (bake/receiver.h);
-// here is the rest: mirrors for rays of ours (bake/mirrors.h), and what arrives along them shared among texels
-// (trace/mirror_gather.h).
+// here is the rest: mirrors for rays of ours (bake/mirrors.h), and what arrives along them shared among
+// texels (trace/mirror_gather.h).
 #pragma once
 
 #include "bake/baked_picture.h"

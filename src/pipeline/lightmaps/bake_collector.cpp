@@ -10,8 +10,7 @@
 namespace rnmbake {
 
 BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
-                             std::vector<LightmapHeader> headers, bool preview,
-                             const IndirectLight* indirect)
+                             std::vector<LightmapHeader> headers, bool preview, const IndirectLight* indirect)
     : context_(context),
       output_(output),
       headers_(std::move(headers)),

@@ -5,8 +5,8 @@
 #include "bake/plan.h"
 #include "bake/request.h"
 #include "config/bake_settings.h"
-#include "pipeline/gather/indirect_light.h"
 #include "pipeline/dispatch/picture_sink.h"
+#include "pipeline/gather/indirect_light.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/preview_pictures.h"
 

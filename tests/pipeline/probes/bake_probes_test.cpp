@@ -185,8 +185,8 @@ TEST(BakeProbes, FollowTheSettings) {
   for (const auto& request : bake.blender.requests) {
     EXPECT_EQ(request.at("recipe"), "receiver");
     EXPECT_EQ(request.at("absent"), nlohmann::json({"door", "lift/cabin#0"}));
-    const nlohmann::json cycles{{"samples", 7}, {"seed", 3},       {"clamp", 2.0},
-                                {"bounces", 5}, {"device", "CPU"}, {"lamps", true}};
+    const nlohmann::json cycles{{"samples", 7},    {"seed", 3},     {"clamp", 2.0},    {"bounces", 5},
+                                {"device", "CPU"}, {"lamps", true}, {"mirrors", false}};
     EXPECT_EQ(request.at("cycles"), cycles);
   }
 }
