@@ -90,7 +90,7 @@ TEST(MirrorGather, FindsTheLightOfAPatchSharedOrNot) {
     const std::vector<char> even{1, shares};
     std::array<Moments, 4> means;
     Moments noises;
-    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    for (std::uint64_t seed = 0; seed < 48; ++seed) {
       const MirrorGather mirrors(patch.traced, even, patch.target, all_directions(64, seed));
       const MirrorGather::Result found = mirrors.gather(patch.answers(mirrors.rays()));
       EXPECT_GT(found.lit, 0);
