@@ -2,7 +2,6 @@
 
 #include "bake/mirrors.h"
 #include "base/numeric/row_order.h"
-#include "lightmap/fill.h"
 #include "pipeline/lightmaps/target_facts.h"
 #include "pipeline/reference/reference_plan.h"
 #include "sampling/splitmix64.h"
@@ -136,9 +135,9 @@ void IndirectLight::plan(Plan& plan, const Target& target, const CyclesSettings&
   }
 }
 
-IndirectLight::Gathering IndirectLight::gather(std::size_t target, const Plan& plan,
-                                               const std::map<std::size_t, BakedPicture>& pictures) const {
-  Gathering result;
+BouncedLight IndirectLight::gather(std::size_t target, const Plan& plan,
+                                   const std::map<std::size_t, BakedPicture>& pictures) const {
+  BouncedLight result;
   const auto found = members_.find(target);
   if (found == members_.end()) return result;
   for (const std::size_t half : {0U, 1U}) {
@@ -157,20 +156,6 @@ IndirectLight::Gathering IndirectLight::gather(std::size_t target, const Plan& p
     result.shared += gathered.shared;
   }
   return result;
-}
-
-void add_light(const Gathered& gathered, float share, TargetBakes& bakes) {
-  for (std::size_t k = 0; k < gathered.directions.size(); ++k) {
-    FloatImage light = gathered.directions[k].radiance;
-    dilate(light, gathered.coverage, 1);
-    FloatImage& sum = bakes.bases[k].radiance;
-    for (int y = 0; y < sum.height(); ++y) {
-      for (int x = 0; x < sum.width(); ++x) {
-        if (bakes.coverage.texel(x, y)[0] > 0)
-          set_vec3(sum, x, y, vec3_at(sum, x, y) + vec3_at(light, x, y) * share);
-      }
-    }
-  }
 }
 
 }  // namespace rnmbake

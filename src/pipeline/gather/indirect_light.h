@@ -5,13 +5,12 @@
 // texels (trace/mirror_gather.h).
 #pragma once
 
-#include "bake/baked_picture.h"
 #include "bake/fences.h"
 #include "bake/plan.h"
 #include "bake/targets.h"
 #include "blender/blender_info.h"
 #include "config/bake_settings.h"
-#include "image/bakes.h"
+#include "pipeline/lightmaps/bounced_light.h"
 #include "scene/diffuse_scene.h"
 #include "trace/mirror_gather.h"
 
@@ -24,7 +23,7 @@
 
 namespace rnmbake {
 
-class IndirectLight {
+class IndirectLight : public BouncedLightSource {
  public:
   /// Keeps a copy of the survey's geometry, and references to the rest.
   IndirectLight(const SceneSurvey& survey, const std::vector<BasisDirection>& bases,
@@ -34,14 +33,8 @@ class IndirectLight {
   /// with as many samples. Call group_mirrors() when all are there.
   void plan(Plan& plan, const Target& target, const CyclesSettings& cycles);
 
-  /// What was gathered for one target.
-  struct Gathering {
-    std::array<Gathered, 2> halves;    // independent
-    std::int64_t lit = 0, shared = 0;  // see MirrorGather::Result
-  };
-  /// `pictures`: by the plan's rectangles, those of the target's mirrors among them. Thread-safe.
-  [[nodiscard]] Gathering gather(std::size_t target, const Plan& plan,
-                                 const std::map<std::size_t, BakedPicture>& pictures) const;
+  [[nodiscard]] BouncedLight gather(std::size_t target, const Plan& plan,
+                                    const std::map<std::size_t, BakedPicture>& pictures) const override;
 
  private:
   struct Member {
@@ -64,9 +57,5 @@ class IndirectLight {
   std::unique_ptr<TraceScene> trace_scene_;
   std::map<std::size_t, Member> members_;
 };
-
-/// Adds light that bounced to what came directly. Texels that one of the two lacks, at edges where the
-/// programs round differently, take their neighbours' light.
-void add_light(const Gathered& gathered, float share, TargetBakes& bakes);
 
 }  // namespace rnmbake

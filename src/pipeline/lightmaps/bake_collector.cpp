@@ -10,11 +10,12 @@
 namespace rnmbake {
 
 BakeCollector::BakeCollector(const BakeContext& context, const OutputSettings& output,
-                             std::vector<LightmapHeader> headers, bool preview, const IndirectLight* indirect)
+                             std::vector<LightmapHeader> headers, bool preview,
+                             const BouncedLightSource* bounced)
     : context_(context),
       output_(output),
       headers_(std::move(headers)),
-      indirect_(indirect),
+      bounced_(bounced),
       previews_(preview ? std::make_unique<PreviewPictures>(context_, output_, headers_) : nullptr),
       pending_(headers_.size()),
       deliveries_(headers_.size()) {
@@ -72,8 +73,8 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
   const double variance_factor = any.variance_factor();
   LightmapHeader header = headers_[target_index];
   header.metadata.samples = any.all_samples();
-  IndirectLight::Gathering gathering;
-  if (indirect_ != nullptr) gathering = indirect_->gather(target_index, context_.plan, pending.pictures);
+  BouncedLight bounced_light;
+  if (bounced_ != nullptr) bounced_light = bounced_->gather(target_index, context_.plan, pending.pictures);
   for (auto& [rect, picture] : pending.pictures) {
     if (context_.plan.rects[rect].pass.role == ReceiverPass::Role::mirrors) continue;
     rects.push_back(&context_.plan.rects[rect]);
@@ -85,7 +86,7 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
                              bool frames) {
     TargetBakes bakes = assemble(target, rects, pictures, context_.bases, header.surface.get(), frames);
     for (const std::size_t half : {0U, 1U}) {
-      if (shares[half] > 0) add_light(gathering.halves[half], shares[half], bakes);
+      if (shares[half] > 0) add_light(bounced_light.halves[half], shares[half], bakes);
     }
     return bakes;
   };

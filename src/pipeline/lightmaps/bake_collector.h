@@ -6,7 +6,7 @@
 #include "bake/request.h"
 #include "config/bake_settings.h"
 #include "pipeline/dispatch/picture_sink.h"
-#include "pipeline/gather/indirect_light.h"
+#include "pipeline/lightmaps/bounced_light.h"
 #include "pipeline/lightmaps/deliver_lightmap.h"
 #include "pipeline/lightmaps/preview_pictures.h"
 
@@ -22,10 +22,10 @@ namespace rnmbake {
 /// disk.
 class BakeCollector : public PictureSink {
  public:
-  /// `preview`: pictures to look at lie in DIR/preview while it bakes. `indirect`: of recipe gather, whose
+  /// `preview`: pictures to look at lie in DIR/preview while it bakes. `bounced`: of recipe gather, whose
   /// plan has mirrors beside receivers.
   BakeCollector(const BakeContext& context, const OutputSettings& output, std::vector<LightmapHeader> headers,
-                bool preview = false, const IndirectLight* indirect = nullptr);
+                bool preview = false, const BouncedLightSource* bounced = nullptr);
 
   /// Writes each target that became complete.
   void take(const Batch& batch, const BatchLayout& layout, std::vector<BakedPicture> pictures) override;
@@ -44,7 +44,7 @@ class BakeCollector : public PictureSink {
   BakeContext context_;
   OutputSettings output_;
   std::vector<LightmapHeader> headers_;
-  const IndirectLight* indirect_;
+  const BouncedLightSource* bounced_;
   std::unique_ptr<PreviewPictures> previews_;  // of headers_; null: nobody asked
   mutable std::mutex mutex_;
   std::vector<PendingTarget> pending_;

@@ -1,0 +1,39 @@
+// pipeline/lightmaps/bounced_light.h - light of a target beside what its receivers show, where recipe gather
+// bakes it apart (pipeline/gather).
+#pragma once
+
+#include "bake/baked_picture.h"
+#include "bake/plan.h"
+#include "image/bakes.h"
+#include "trace/gather_options.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+namespace rnmbake {
+
+struct BouncedLight {
+  std::array<Gathered, 2> halves;    // independent; without directions where there is none
+  std::int64_t lit = 0, shared = 0;  // rays with light, and those whose light served several texels
+};
+
+class BouncedLightSource {
+ public:
+  virtual ~BouncedLightSource() = default;
+  /// Of one target. `pictures`: by the plan's rectangles, all of the target's. Thread-safe.
+  [[nodiscard]] virtual BouncedLight gather(std::size_t target, const Plan& plan,
+                                            const std::map<std::size_t, BakedPicture>& pictures) const = 0;
+
+ protected:
+  BouncedLightSource() = default;
+  BouncedLightSource(const BouncedLightSource&) = default;
+  BouncedLightSource& operator=(const BouncedLightSource&) = default;
+};
+
+/// Adds light that bounced to what came directly. Texels that one of the two lacks, at edges where the
+/// programs round differently, take their neighbours' light.
+void add_light(const Gathered& gathered, float share, TargetBakes& bakes);
+
+}  // namespace rnmbake
