@@ -7,25 +7,19 @@ diffuse. Efficiency: receiver's squared error x processor time over gather's.
 """
 import argparse
 import math
-import os
 from pathlib import Path
-import subprocess
-import sys
 import tempfile
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "with_blender"))
-from pictures import read_picture  # noqa: E402
+import measure
+from lightmaps import read_picture
 
 SIDE = 8  # of the means, texels
 
 
 def run(binary, *words):
     """Processor seconds of a run without a cache."""
-    before = os.times()
-    subprocess.run([binary, *words, "--depth", "float", "--resolution", "32", "--save-scene", "never", "--cache", "none",
-                    "--dilate", "0", "-q"], check=True)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
+    return measure.run([binary, *words, "--depth", "float", "--resolution", "32", "--save-scene", "never", "--cache", "none",
+                        "--dilate", "0", "-q"])["cpu"]
 
 
 def pictures(folder):
@@ -58,10 +52,14 @@ def errors(truth, found):
     return [sum(values) / len(pairs) for values in zip(*pairs)]
 
 
+def absolute(path):
+    return Path(path).resolve()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary")
-    parser.add_argument("scene")
+    parser.add_argument("binary", type=absolute)
+    parser.add_argument("scene", type=absolute)
     parser.add_argument("samples", nargs="?", default="256")
     parser.add_argument("reference_samples", nargs="?", default="8192")
     parser.add_argument("--basis-set", default="rnm")

@@ -7,21 +7,17 @@ third of the noise; its own standard errors count.
 """
 import json
 import math
-import os
 from pathlib import Path
-import subprocess
 import sys
 import tempfile
 
+import measure
 from lightmaps import MAPS, covered_texels
 
 
 def run(*words):
     """Processor seconds, of Blender, too."""
-    before = os.times()
-    subprocess.run([str(word) for word in words], check=True, stderr=subprocess.DEVNULL)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
+    return measure.run(words)["cpu"]
 
 
 def manifest(folder):
@@ -66,7 +62,7 @@ def main(binary, noise, resolution, *scenes):
     print("|---|---|---|---|---|---|---|---|---|")
     for scene in scenes:
         with tempfile.TemporaryDirectory(prefix="rnmbake-errors-") as folder:
-            print(row(Path(binary).resolve(), float(noise), int(resolution), Path(scene), Path(folder)), flush=True)
+            print(row(Path(binary).resolve(), float(noise), int(resolution), Path(scene).resolve(), Path(folder)), flush=True)
 
 
 main(*sys.argv[1:])

@@ -52,6 +52,13 @@ def _put_back(cycles):
             cycles.property_unset(name)
 
 
+def set_bounces(cycles, bounces):
+    cycles.max_bounces = bounces
+    cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, LAYERS)
+    for lobe in ("diffuse", "glossy", "transmission"):
+        setattr(cycles, lobe + "_bounces", bounces)
+
+
 def _remove_bias(cycles):
     """Cycles' defaults that bias a bake."""
     cycles.blur_glossy = 0
@@ -81,13 +88,6 @@ def use_device(scene, device):
     for entry in preferences.devices:
         entry.use = entry.type == device
     scene.cycles.device = "GPU"
-
-
-def set_bounces(cycles, bounces):
-    cycles.max_bounces = bounces
-    cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, LAYERS)
-    for lobe in ("diffuse", "glossy", "transmission"):
-        setattr(cycles, lobe + "_bounces", bounces)
 
 
 def bake_diffuse(scene, target, clear=True):

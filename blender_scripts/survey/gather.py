@@ -3,9 +3,8 @@ may meet that the survey does not hold.
 
 A mirror's ray is a glossy one, a receiver's a diffuse one; all that comes after is the same.
 """
-from scene_ops.describe import bends_normals, outside_of
-from scene_ops.describe_nodes import active_output, reachable_nodes
-from scene_ops.see_through import has_transparency
+from scene_ops.describe_nodes import reachable_nodes
+from scene_ops.see_through import has_transparency, surface_nodes
 
 # Light Path outputs that are the same for a mirror's ray and a receiver's.
 SAME = {"Is Camera Ray", "Is Shadow Ray", "Is Transmission Ray", "Is Volume Scatter Ray", "Ray Length", "Ray Depth",
@@ -14,15 +13,12 @@ CAUSTICS = {"glossy", "metallic", "glass", "transmission", "coat"}  # what Cycle
 BEYOND = {"CURVES", "POINTCLOUD", "VOLUME", "HAIR"}  # objects that the survey has no shapes of
 
 
-def is_even(material):
-    """Whether what the material reflects is the same to all who see one side of it, and nothing shines through."""
-    output = active_output(material)
-    if output is None:
-        return True
-    if output.inputs["Volume"].is_linked or output.inputs["Displacement"].is_linked or has_transparency(material):
+def is_even(material, info):
+    """Whether what the material reflects is the same to all who see one side of it, and nothing shines through. `info`: of
+    describe_material()."""
+    if info["outside_model"] or info["normal_mapped"] or has_transparency(material):
         return False
-    nodes = list(reachable_nodes(output.inputs["Surface"]))
-    return not any(bends_normals(node) or any(outside_of(node)) or node.type == "LIGHT_PATH" for node in nodes)
+    return not any(node.type == "LIGHT_PATH" for node in surface_nodes(material))
 
 
 class GatherNotes:
@@ -48,9 +44,12 @@ class GatherNotes:
         if ob.is_holdout or ob.is_shadow_catcher:
             self._note(self._unshared, "holdout or shadow catcher", name)
 
-    def finish(self, scene, materials):
-        for material in materials:
-            self._look_at_material(material)
+    def finish(self, scene, infos):
+        """`infos`: material -> describe_material(), of all that are shown."""
+        for material, info in infos.items():
+            if "volume" in info["outside_model"]:
+                self._note(self._unshared, "a volume", material.name)
+            self._look_at_nodes(material.name, surface_nodes(material), SAME)
         world = scene.world
         if world and world.use_nodes and world.node_tree:
             output = world.node_tree.get_output_node("CYCLES")
@@ -60,18 +59,10 @@ class GatherNotes:
                                 SAME | {"Is Diffuse Ray", "Is Glossy Ray", "Is Singular Ray", "Is Reflection Ray"})
         cycles = scene.cycles
         if not (cycles.caustics_reflective and cycles.caustics_refractive):
-            for material in materials:
-                if CAUSTICS & set(_outside(material)):
+            for material, info in infos.items():
+                if CAUSTICS.intersection(info["outside_model"]):
                     self._note(self._refused, "caustics are off, which mirrors would not know", material.name)
         return {"refused": list(_lines(self._refused)), "unshared": list(_lines(self._unshared))}
-
-    def _look_at_material(self, material):
-        output = active_output(material)
-        if output is None:
-            return
-        if output.inputs["Volume"].is_linked:
-            self._note(self._unshared, "a volume", material.name)
-        self._look_at_nodes(material.name, reachable_nodes(output.inputs["Surface"]), SAME)
 
     def _look_at_nodes(self, name, nodes, same):
         for node in nodes:
@@ -83,11 +74,6 @@ class GatherNotes:
         names = where.setdefault(reason, [])
         if name not in names:
             names.append(name)
-
-
-def _outside(material):
-    output = active_output(material)
-    return [what for node in reachable_nodes(output.inputs["Surface"]) for what in outside_of(node)] if output else []
 
 
 def _lines(notes):

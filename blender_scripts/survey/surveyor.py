@@ -93,7 +93,8 @@ def survey_scene(task, surveyor=None):
     scene = bpy.context.scene
     with_render_depsgraph(surveyor.visit)
     surveyor.finish()
-    wanted = [material for material in bpy.data.materials if material_name(material) in surveyor.material_names]
+    materials = {material: describe_material(material) for material in bpy.data.materials
+                 if material_name(material) in surveyor.material_names}
     return {
         "format": FORMAT,
         "byte_order": sys.byteorder,
@@ -105,12 +106,12 @@ def survey_scene(task, surveyor=None):
         "data_bytes": surveyor.meshes.bytes_written,
         "meshes": surveyor.meshes.entries,
         "objects": surveyor.objects,
-        "materials": {material_name(material): {**describe_material(material), "even": is_even(material)}
-                      for material in wanted},
+        "materials": {material_name(material): {**info, "even": is_even(material, info)}
+                      for material, info in materials.items()},
         "lights": surveyor.lights,
         "probe_places": surveyor.probe_places,
         "world": describe_world(scene.world),
-        "gather": surveyor.gather.finish(scene, wanted),
+        "gather": surveyor.gather.finish(scene, materials),
         "warnings": surveyor.warnings,
     }
 

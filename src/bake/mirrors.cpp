@@ -3,7 +3,6 @@
 #include "bake/point_receivers.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -15,16 +14,10 @@ namespace {
 constexpr std::size_t task_mirrors = std::size_t(1) << 16;
 constexpr std::size_t batch_mirrors = std::size_t(1) << 19;
 
-/// Steps of a float from the centre of a mirror to its corners along each axis: corner normals decide where
-/// it looks, so its face may be turned a little by rounding.
-constexpr int size_steps = 5;  // 2^5
-
-double largest_coordinate(const Vec3d& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
+/// Smaller than other receivers of a point: corner normals decide where it looks, so its face may be turned
+/// by rounding, and so it need not stand as high over the surface.
 double mirror_size(const Vec3d& point) {
-  return std::max(1e-6, std::ldexp(largest_coordinate(point), size_steps - 23));
+  return point_receiver_size(point, 5);
 }
 
 }  // namespace

@@ -35,9 +35,9 @@ RectSize point_map(std::size_t points) {
   return {static_cast<int>(width), static_cast<int>((points + width - 1) / width)};
 }
 
-double point_receiver_size(const Vec3d& point) {
+double point_receiver_size(const Vec3d& point, int steps_log2) {
   const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-  return std::max(1e-6, std::ldexp(largest, 8 - 23));
+  return std::max(1e-6, std::ldexp(largest, steps_log2 - 23));
 }
 
 ReceiverPasses make_point_receivers(std::span<const Vec3d> points, std::span<const Vec3> directions) {

@@ -20,11 +20,11 @@ namespace rnmbake {
 
 /// Distance from a point to the corners of its triangles along each of two axes, world units.
 ///
-/// At least 256 float steps of the point's largest coordinate, so that rounded corners turn the face (and
-/// with it the hemisphere, not the corner normals) by no more than 0.2 degrees: 0.03 mm at 1, 3 cm at 1000,
-/// which is what Cycles itself may move the start of a ray by. Near the origin 1e-6, where the square of an
-/// area is no denormal number yet.
-[[nodiscard]] double point_receiver_size(const Vec3d& point);
+/// At least 2^steps_log2 float steps of the point's largest coordinate. With 256 of them rounded corners turn
+/// the face (and with it the hemisphere, not the corner normals) by no more than 0.2 degrees: 0.03 mm at 1,
+/// 3 cm at 1000, which is what Cycles itself may move the start of a ray by. Near the origin 1e-6, where the
+/// square of an area is no denormal number yet.
+[[nodiscard]] double point_receiver_size(const Vec3d& point, int steps_log2 = 8);
 
 /// Three corners around `point`, `size` away along each axis across `direction`, which is their normal. Their
 /// UVs stay inside the point's texel of `map`, whose centre maps to the point.

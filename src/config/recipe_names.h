@@ -13,18 +13,11 @@ inline constexpr const char* flat_normal_map_name =
     "flat-normal-map";                                // the published recipe, baked or traced
 inline constexpr const char* traced_name = "traced";  // as a recipe: a bake by the tracer
 
+/// In the order of BakingSettings::Recipe.
+inline constexpr std::array recipe_names{"auto", "receiver", "gather", flat_normal_map_name};
+
 [[nodiscard]] constexpr const char* name_of(BakingSettings::Recipe recipe) {
-  switch (recipe) {
-    case BakingSettings::Recipe::automatic:
-      return "auto";
-    case BakingSettings::Recipe::receiver:
-      return "receiver";
-    case BakingSettings::Recipe::gather:
-      return "gather";
-    case BakingSettings::Recipe::flat_normal_map:
-      break;
-  }
-  return flat_normal_map_name;
+  return recipe_names[static_cast<std::size_t>(recipe)];
 }
 
 [[nodiscard]] constexpr const char* name_of(BakingSettings::Engine engine) {

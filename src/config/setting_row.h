@@ -34,9 +34,7 @@ inline Spelling spelling(BakingSettings::Engine) {
   return {name_of(BakingSettings::Engine::cycles), name_of(BakingSettings::Engine::embree)};
 }
 inline Spelling spelling(BakingSettings::Recipe) {
-  using Recipe = BakingSettings::Recipe;
-  return {name_of(Recipe::automatic), name_of(Recipe::receiver), name_of(Recipe::gather),
-          name_of(Recipe::flat_normal_map)};
+  return {recipe_names.begin(), recipe_names.end()};
 }
 inline Spelling spelling(BakingSettings::DirectionSet) {
   return {direction_set_names.begin(), direction_set_names.end()};

@@ -59,10 +59,10 @@ class BlockGatherer {
 
   /// Since construction: rays traced, and for each point the primary rays that hit a back face.
   [[nodiscard]] std::int64_t rays() const { return rays_; }
-  /// ... primary rays with light, and those of them whose light the block shared.
+  [[nodiscard]] const std::vector<std::int64_t>& back_faces() const { return back_faces_; }
+  /// ... of `incident`, rays with light, and those of them whose light the block shared.
   [[nodiscard]] std::int64_t lit() const { return lit_; }
   [[nodiscard]] std::int64_t shared() const { return shared_; }
-  [[nodiscard]] const std::vector<std::int64_t>& back_faces() const { return back_faces_; }
 
  private:
   /// A point during one sample.

@@ -36,7 +36,6 @@ MirrorGather::MirrorGather(const TraceScene& scene, std::span<const char> even, 
     : work_(std::make_unique<Work>(scene, even, target, options)) {}
 
 MirrorGather::~MirrorGather() = default;
-MirrorGather::MirrorGather(MirrorGather&&) noexcept = default;
 
 std::size_t MirrorGather::size() const {
   return work_->rays_of(work_->job.texels());

@@ -28,7 +28,6 @@ class MirrorGather {
   MirrorGather(const TraceScene& scene, std::span<const char> even, const GatherTarget& target,
                const GatherOptions& options);
   ~MirrorGather();
-  MirrorGather(MirrorGather&&) noexcept;
 
   /// Number of rays.
   [[nodiscard]] std::size_t size() const;

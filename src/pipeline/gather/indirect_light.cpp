@@ -2,6 +2,7 @@
 
 #include "bake/mirrors.h"
 #include "base/numeric/row_order.h"
+#include "lightmap/fill.h"
 #include "pipeline/lightmaps/target_facts.h"
 #include "pipeline/reference/reference_plan.h"
 #include "sampling/splitmix64.h"
@@ -15,8 +16,8 @@
 namespace rnmbake {
 namespace {
 
-/// Paths behind each mirror: a mirror costs about as much as five paths of a simple scene, but directions
-/// take away more noise than paths do (docs/performance.md).
+/// Paths behind each mirror: a mirror costs more than a path, but directions take away more noise than paths
+/// do (bench/gather.py).
 constexpr int paths_of_mirror = 2;
 
 /// Geometry that diffuse rays meet; every material is opaque, for what lies behind a see-through one is seen
@@ -150,10 +151,9 @@ BouncedLight IndirectLight::gather(std::size_t target, const Plan& plan,
       const FloatImage mean = picture.mean();
       for (std::size_t i = 0; i < pass.mirrors.size(); ++i) radiance[*ray++] = radiance_at(mean, i);
     }
-    MirrorGather::Result gathered = mirrors.gather(radiance);
-    result.halves[half] = std::move(gathered.light);
-    result.lit += gathered.lit;
-    result.shared += gathered.shared;
+    result[half] = mirrors.gather(radiance).light;
+    for (GatheredDirection& direction : result[half].directions)
+      dilate(direction.radiance, result[half].coverage, 1);
   }
   return result;
 }

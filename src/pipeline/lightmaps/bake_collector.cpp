@@ -86,7 +86,7 @@ Delivery BakeCollector::finish(std::size_t target_index, PendingTarget&& pending
                              bool frames) {
     TargetBakes bakes = assemble(target, rects, pictures, context_.bases, header.surface.get(), frames);
     for (const std::size_t half : {0U, 1U}) {
-      if (shares[half] > 0) add_light(bounced_light.halves[half], shares[half], bakes);
+      if (shares[half] > 0) add_light(bounced_light[half], shares[half], bakes);
     }
     return bakes;
   };

@@ -1,13 +1,10 @@
 #include "pipeline/lightmaps/bounced_light.h"
 
-#include "lightmap/fill.h"
-
 namespace rnmbake {
 
 void add_light(const Gathered& gathered, float share, TargetBakes& bakes) {
   for (std::size_t k = 0; k < gathered.directions.size(); ++k) {
-    FloatImage light = gathered.directions[k].radiance;
-    dilate(light, gathered.coverage, 1);
+    const FloatImage& light = gathered.directions[k].radiance;
     FloatImage& sum = bakes.bases[k].radiance;
     for (int y = 0; y < sum.height(); ++y) {
       for (int x = 0; x < sum.width(); ++x) {

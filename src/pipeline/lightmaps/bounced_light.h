@@ -9,15 +9,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 
 namespace rnmbake {
 
-struct BouncedLight {
-  std::array<Gathered, 2> halves;    // independent; without directions where there is none
-  std::int64_t lit = 0, shared = 0;  // rays with light, and those whose light served several texels
-};
+/// Two independent halves, without directions where nothing bounces. Texels that are not covered have their
+/// neighbours' light: the programs round edges differently.
+using BouncedLight = std::array<Gathered, 2>;
 
 class BouncedLightSource {
  public:
@@ -32,8 +30,7 @@ class BouncedLightSource {
   BouncedLightSource& operator=(const BouncedLightSource&) = default;
 };
 
-/// Adds light that bounced to what came directly. Texels that one of the two lacks, at edges where the
-/// programs round differently, take their neighbours' light.
+/// Adds `share` of light that bounced to what came directly.
 void add_light(const Gathered& gathered, float share, TargetBakes& bakes);
 
 }  // namespace rnmbake
